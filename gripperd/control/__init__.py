@@ -1,0 +1,1 @@
+"""What to do, and when it is allowed."""
