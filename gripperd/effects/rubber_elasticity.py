@@ -8,7 +8,6 @@ References
 """
 
 from dataclasses import dataclass
-from math import pi
 from typing import ClassVar
 
 from gripperd.model import Muscle, MuscleState

@@ -3,15 +3,15 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import hypot
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import TYPE_CHECKING, Self, TypeVar
 
 from gripperd.errors import DomainError
 from gripperd.model.effect import Direction
 from gripperd.model.linkage import Linkage
 from gripperd.model.muscle import Muscle
+from gripperd.model.real import Real, positive_part
 from gripperd.model.regulator import Regulator
 from gripperd.model.static import StaticMuscle
-from gripperd.model.real import Real, positive_part
 from gripperd.units import MILLI
 
 if TYPE_CHECKING:

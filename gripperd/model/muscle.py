@@ -39,7 +39,7 @@ class Muscle:
 
     @cached_property
     def _pull(self) -> tuple[float, float]:
-        """Both coefficients of eq. (4), so that F_i / p = axial (1-h)² - radial. [m²]."""
+        """Coefficients of eq. (4), so that F_i / p = axial (1-h)² - radial. [m²]."""
         area = pi * self.diameter**2 / 4
         return (
             3 * area / tan(self.braid_angle) ** 2,
@@ -110,8 +110,8 @@ class Muscle:
     def pull_area(self, contraction: Real) -> Real:
         r"""Ideal pull per pressure, eq. (4) divided by p.
 
-        .. math:: \frac{F_i}{p} = \frac{\pi D_N^2}{4}
-                  \left[\frac{3(1-h)^2}{\tan^2\theta_0} - \frac{1}{\sin^2\theta_0}\right]
+        .. math:: \frac{F_i}{p} = \frac{\pi D_N^2}{4} \left[
+                  \frac{3(1-h)^2}{\tan^2\theta_0} - \frac{1}{\sin^2\theta_0} \right]
 
         It equals ``-dV/dL`` of the braided cylinder, so it holds no free constant.
 
