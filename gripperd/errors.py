@@ -4,7 +4,8 @@
 
     GripperdError
      ├─ InputError          a value you gave is unusable; nothing was changed
-     │   └─ DomainError     the physics has no answer there
+     │   ├─ DomainError     the physics has no answer there
+     │   └─ NotFound        there is nothing by the name you gave
      ├─ ConfigError         the configuration is unusable; nothing was started
      ├─ Refused             what you ask is not allowed now, or would do harm
      └─ LinkError           no trustworthy answer came over a line
@@ -37,6 +38,10 @@ class InputError(GripperdError, ValueError):
 
 class DomainError(InputError):
     """The physics has no answer there, for example past the end of the stroke."""
+
+
+class NotFound(InputError, LookupError):
+    """There is nothing by the name you gave."""
 
 
 class ConfigError(GripperdError, ValueError):

@@ -2,15 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from math import hypot
+from math import hypot, isfinite
 from typing import TYPE_CHECKING, Self, TypeVar
 
-from gripperd.errors import DomainError
+from gripperd.errors import DomainError, InputError
 from gripperd.model.effect import Direction
 from gripperd.model.linkage import Linkage
 from gripperd.model.muscle import Muscle
 from gripperd.model.real import Real, positive_part
 from gripperd.model.regulator import Regulator
+from gripperd.model.root import falling_root
 from gripperd.model.static import StaticMuscle
 from gripperd.units import MILLI
 
@@ -21,9 +22,6 @@ Part = TypeVar("Part", bound="DataclassInstance")
 
 RIGID = float("inf")
 """Stiffness of an object that does not yield. [N/m]"""
-
-NEWTON_STEPS = 12
-"""Enough for an object four times softer than the gripper at 1e-12 relative."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,23 +146,30 @@ class Chain:
     ) -> float:
         """Force at which an object that yields balances the jaws, signed. [N].
 
-        Newton's method on ``grip(d - N / k) = N``; a rigid object needs none.
+        The root of ``grip(d - N / k) - N``, which falls with N.
+
+        Raises
+        ------
+        DomainError
+            When the jaws meet before the object resists enough.
         """
-        rigid = float(self.grip_force(current, pressed.diameter, direction))
-        if rigid <= 0 or pressed.stiffness == RIGID:
+        diameter, stiffness = pressed.diameter, pressed.stiffness
+        rigid = float(self.grip_force(current, diameter, direction))
+        if rigid <= 0 or stiffness == RIGID:
             return rigid
-        force = rigid / 2
-        for _ in range(NEWTON_STEPS):
-            opening = pressed.diameter - force / pressed.stiffness
-            step = 1e-6
-            here = float(self.grip_force(current, opening, direction))
-            wider = float(self.grip_force(current, opening + step, direction))
-            slope = (wider - here) / step / pressed.stiffness
-            change = (here - force) / (1 + slope)
-            force += change
-            if abs(change) <= 1e-12 * rigid:
-                break
-        return force
+
+        def surplus(force: float) -> float:
+            opening = diameter - force / stiffness
+            return float(self.grip_force(current, opening, direction)) - force
+
+        high = min(rigid, stiffness * diameter)
+        if surplus(high) > 0:
+            message = (
+                f"an object of {diameter / MILLI:g} mm and {stiffness * MILLI:g} N/mm"
+                f" is squeezed flat at {current / MILLI:g} mA"
+            )
+            raise DomainError(message, key="stiffness_N_per_mm")
+        return falling_root(surplus, 0.0, high)
 
     def current_for(
         self,
@@ -186,10 +191,15 @@ class Chain:
 
         Raises
         ------
+        InputError
+            When the current is no number.
         DomainError
-            When the object does not fit between the jaws.
+            When the object does not fit between the jaws, or is squeezed flat.
         """
         self.check_fits(pressed.diameter)
+        if not isfinite(current):
+            message = f"a current of {current} mA is no number"
+            raise InputError(message, key="current_mA")
         signed = self.grip_on(current, pressed, direction)
         grip = max(signed, 0.0)
         opening = pressed.diameter - grip / pressed.stiffness
@@ -242,7 +252,7 @@ class Chain:
         DomainError
             With both sizes.
         """
-        if diameter > self.linkage.open_width:
+        if not 0 < diameter <= self.linkage.open_width:
             message = (
                 f"an object of {diameter / MILLI:g} mm does not fit between the jaws:"
                 f" they open {self.linkage.open_width / MILLI:g} mm"

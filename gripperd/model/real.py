@@ -18,10 +18,10 @@ CHUNK = 8192
 
 
 def positive_part(value: Real) -> Real:
-    """Give ``max(value, 0)``, exact, at the same cost for one value as an array."""
+    """Give ``max(value, 0)``, exact; what is not a number stays so."""
     if isinstance(value, np.ndarray):
         return 0.5 * (value + np.abs(value))
-    return value if value > 0 else 0.0
+    return 0.0 if value < 0 else value
 
 
 def everywhere(condition: "bool | np.bool_ | NDArray[np.bool_]") -> bool:

@@ -30,15 +30,9 @@ class StaticMuscle:
         Raises
         ------
         DomainError
-            Where a strand would have to be longer than it is.
+            Outside the geometry of the braid.
         """
-        straight = self.muscle.straight
-        if not everywhere(contraction >= straight):
-            message = (
-                f"contraction {np.min(contraction):.4g} is below {straight:.4f}, where"
-                " the strands of the braid are straight"
-            )
-            raise DomainError(message, key="contraction")
+        self._check(contraction)
         ratio = self.muscle.diameter_ratio(contraction)
         return MuscleState(pressure, contraction, ratio, direction)
 
@@ -126,30 +120,41 @@ class StaticMuscle:
 
     @chunked
     def _pressure(self, force: Real, contraction: Real, direction: Real) -> Real:
-        spent = self.muscle.spent
-        if not everywhere(contraction < spent):
-            message = (
-                f"contraction {np.max(contraction):.4g} is not below {spent:.4f}, where"
-                " pressure no longer makes the muscle pull"
-            )
-            raise DomainError(message, key="contraction")
+        self._check(contraction)
         kinks = self._kinks(contraction)
         forces = [self._force(kink, contraction, direction) for kink in kinks]
-        below = self._force(kinks[0] - PROBE, contraction, direction)
-        above = self._force(kinks[-1] + PROBE, contraction, direction)
-        pressure = kinks[0] - positive_part(forces[0] - force) * PROBE / (
-            forces[0] - below
-        )
+        fall = forces[0] - self._force(kinks[0] - PROBE, contraction, direction)
+        rise = self._force(kinks[-1] + PROBE, contraction, direction) - forces[-1]
+        if not (everywhere(fall > 0) and everywhere(rise > 0)):
+            message = (
+                f"at contraction {np.max(contraction):.4g} pressure no longer makes the"
+                f" muscle pull; without friction that ends at {self.muscle.spent:.4f}"
+            )
+            raise DomainError(message, key="contraction")
+        pressure = kinks[0] - positive_part(forces[0] - force) * PROBE / fall
         for index in range(len(kinks) - 1):
-            rise = forces[index + 1] - forces[index]
+            step = forces[index + 1] - forces[index]
             run = kinks[index + 1] - kinks[index]
             excess = positive_part(force - forces[index])
-            inside = excess - positive_part(excess - rise)
+            inside = excess - positive_part(excess - step)
             # Where two kinks coincide there is nothing to walk: 0 / 1, not 0 / 0.
-            pressure = pressure + inside * run / (rise + (rise == 0))
-        return pressure + positive_part(force - forces[-1]) * PROBE / (
-            above - forces[-1]
-        )
+            pressure = pressure + inside * run / (step + (step == 0))
+        return pressure + positive_part(force - forces[-1]) * PROBE / rise
+
+    def _check(self, contraction: Real) -> None:
+        straight = self.muscle.straight
+        if not everywhere(contraction >= straight):
+            message = (
+                f"contraction {np.min(contraction):.4g} is below {straight:.4f}, where"
+                " the strands of the braid are straight"
+            )
+            raise DomainError(message, key="contraction")
+        if not everywhere(contraction < 1):
+            message = (
+                f"contraction {np.max(contraction):.4g} is not below 1: the muscle has"
+                " no length left"
+            )
+            raise DomainError(message, key="contraction")
 
     def _kinks(self, contraction: Real) -> list[Real]:
         """Pressures between which the force is affine, rising; at least one."""
