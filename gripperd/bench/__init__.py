@@ -1,0 +1,1 @@
+"""A simulated rig that can fail to grip: physics, sensors and faults."""

@@ -1,0 +1,107 @@
+"""Transmitters of the simulated rig: physical values to 4-20 mA."""
+
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+from enum import StrEnum
+from random import Random
+
+LOWEST = 3.8e-3
+HIGHEST = 20.5e-3
+"""Where a healthy transmitter saturates, so that a failed one can be told from it
+(NAMUR NE 43). [A]"""
+
+
+class Channel(StrEnum):
+    """Channels of the analog-input module, in order."""
+
+    PRESSURE = "pressure"
+    OPENING = "opening"
+    GRIP = "grip"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensor:
+    """A transmitter with a straight line through two points."""
+
+    value_low: float
+    """Value at the low end. [SI]"""
+    value_high: float
+    """Value at the high end. [SI]"""
+    current_low: float = 4e-3
+    """[A]"""
+    current_high: float = 20e-3
+    """[A]"""
+    noise: float = 1e-3
+    """One sigma relative to the span. [-]"""
+
+    def current(self, value: float, rng: Random) -> float:
+        """Loop current at a value, to the microampere. [A]."""
+        span = self.current_high - self.current_low
+        part = (value - self.value_low) / (self.value_high - self.value_low)
+        current = self.current_low + span * (part + rng.gauss(0.0, self.noise))
+        return round(min(max(current, LOWEST), HIGHEST), 6)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SensorSettings:
+    """The three transmitters of the rig."""
+
+    pressure: Sensor = Sensor(value_low=0.0, value_high=600e3)
+    """Gauge pressure in the muscle. [Pa]"""
+    opening: Sensor = Sensor(value_low=0.0, value_high=0.1)
+    """Distance between the jaws. [m]"""
+    grip: Sensor = Sensor(value_low=0.0, value_high=250.0)
+    """Grip force per jaw. [N]"""
+
+
+class Sensors:
+    """The transmitters at work, with their noise and their faults.
+
+    Parameters
+    ----------
+    settings
+        Ranges and noise.
+    rng
+        Where the noise comes from.
+    """
+
+    def __init__(self, settings: SensorSettings, rng: Random) -> None:
+        self._sensors = {
+            Channel.PRESSURE: settings.pressure,
+            Channel.OPENING: settings.opening,
+            Channel.GRIP: settings.grip,
+        }
+        self._rng = rng
+        self._last: dict[Channel, float] = {}
+
+    def read(
+        self,
+        values: dict[Channel, float],
+        *,
+        broken: AbstractSet[Channel] = frozenset(),
+        frozen: AbstractSet[Channel] = frozenset(),
+    ) -> tuple[float, float, float]:
+        """Sample every channel once.
+
+        Parameters
+        ----------
+        values
+            True values. [SI]
+        broken
+            Channels that give 0 mA.
+        frozen
+            Channels that repeat what they gave last.
+
+        Returns
+        -------
+        Loop currents in the order of :class:`Channel`. [A]
+        """
+        for channel, sensor in self._sensors.items():
+            # Drawn for every channel: a fault leaves the noise of the others alone.
+            fresh = sensor.current(values[channel], self._rng)
+            if channel not in frozen or channel not in self._last:
+                self._last[channel] = fresh
+        pressure, opening, grip = (
+            0.0 if channel in broken else self._last[channel] for channel in Channel
+        )
+        return pressure, opening, grip
