@@ -1,0 +1,93 @@
+"""The command that runs: its motion, and what its end means."""
+
+from dataclasses import dataclass, replace
+
+from gripperd.control.command import (
+    Command,
+    Failure,
+    GraspResult,
+    Outcome,
+    Status,
+)
+from gripperd.control.grasp import Grasp
+from gripperd.control.release import Release
+from gripperd.control.states import Grip
+from gripperd.model import Chain
+from gripperd.signals import Measurement
+
+GRIP_AFTER = {
+    Outcome.HELD: Grip.HOLDING,
+    Outcome.TOO_SMALL: Grip.HOLDING,
+    Outcome.TOO_LARGE: Grip.HOLDING,
+    Outcome.FORCE_NOT_REACHED: Grip.HOLDING,
+    Outcome.CRUSH_LIMIT: Grip.HOLDING,
+    Outcome.NO_OBJECT: Grip.NO_PART,
+    Outcome.SLIPPED: Grip.PART_LOST,
+    Outcome.UNKNOWN: Grip.UNKNOWN,
+}
+"""What the jaws hold after a grasp; an unwanted object is not let go of unasked."""
+
+MEANING = {
+    Outcome.NO_OBJECT: "the jaws closed without meeting an object",
+    Outcome.TOO_SMALL: "the object is smaller than its profile allows; held lightly",
+    Outcome.TOO_LARGE: "the object is larger than its profile allows; held lightly",
+    Outcome.FORCE_NOT_REACHED: "the grip force is not what was asked for",
+    Outcome.SLIPPED: "the object slipped out of the grip",
+    Outcome.CRUSH_LIMIT: "the force came too close to the damage limit and was reduced",
+    Outcome.UNKNOWN: "no sensor could tell what is between the jaws",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """How a command ended."""
+
+    grip: Grip
+    result: GraspResult | None = None
+    failure: Failure | None = None
+
+
+class Execution:
+    """One command while it runs."""
+
+    def __init__(
+        self, command: Command, chain: Chain, current: float, wall: float
+    ) -> None:
+        self.command = replace(command, status=Status.RUNNING, started_at=wall)
+        self.motion: Grasp | Release
+        if command.order is not None:
+            self.motion = Grasp(command.order, chain, current)
+            self.grip = Grip.CLOSING
+        else:
+            self.motion = Release(chain, current)
+            self.grip = Grip.RELEASING
+
+    def step(self, measured: Measurement, dt: float) -> Ending | None:
+        """Advance by one period; afterwards ``motion.current`` is what to write."""
+        if isinstance(self.motion, Grasp):
+            outcome = self.motion.step(measured, dt)
+            self.command = replace(self.command, phase=self.motion.phase)
+            return None if outcome is None else self._grasped(outcome, measured)
+        opened = self.motion.step(measured, dt)
+        return None if opened is None else _released(opened=opened)
+
+    def _grasped(self, outcome: Outcome, measured: Measurement) -> Ending:
+        assert isinstance(self.motion, Grasp)
+        failure = None
+        if outcome is not Outcome.HELD:
+            failure = Failure(
+                category="outcome", code=outcome, message=MEANING[outcome]
+            )
+        result = self.motion.result(outcome, measured)
+        return Ending(GRIP_AFTER[outcome], result, failure)
+
+
+def _released(*, opened: bool) -> Ending:
+    if opened:
+        return Ending(Grip.RELEASED)
+    failure = Failure(
+        category="outcome",
+        code="not_released",
+        message="the current is at the live zero, but pressure or force remain",
+    )
+    return Ending(Grip.UNKNOWN, failure=failure)

@@ -1,0 +1,68 @@
+"""Grip force as far as it can be known: measured, else computed, and its filter."""
+
+from gripperd.errors import DomainError
+from gripperd.model import Chain
+from gripperd.signals import Measurement, Quality, Reading
+
+CONTACT_FORCE = 0.4
+"""Measured force that counts as contact: 8 sigma of the bench's sensor. [N]"""
+CONTACT_FORCE_SUBSTITUTED = 3.0
+"""The same where the model stands in for the sensor; it knows friction to that. [N]"""
+TIME_CONSTANT = 0.1
+"""Of the filter; far above the loop's period, far below a grasp. [s]"""
+
+
+def grip_force(measured: Measurement, chain: Chain) -> Reading:
+    """Grip force per jaw: measured, or computed from pressure and opening. [N]."""
+    if measured.grip.value is not None:
+        return measured.grip
+    pressure, opening = measured.pressure.value, measured.opening.value
+    if pressure is None or opening is None:
+        return measured.grip
+    length = chain.muscle.rest_length
+    contraction = float(chain.linkage.contraction(opening, length))
+    try:
+        tension = chain.static.tension(pressure, contraction)
+    except DomainError as error:
+        return Reading.bad(str(error))
+    force = float(chain.linkage.grip_force(tension, contraction, length))
+    return Reading(max(force, 0.0), Quality.SUBSTITUTED, measured.grip.cause)
+
+
+class ForceSense:
+    """Follows the grip force through a grasp."""
+
+    def __init__(self, chain: Chain) -> None:
+        self.now = Reading.bad("not measured yet")
+        self.filtered: float | None = None
+        """None while there is no force to believe. [N]"""
+        self._chain = chain
+        self._touches = 0
+
+    def update(self, measured: Measurement, dt: float) -> None:
+        """Take in the newest measurement."""
+        self.now = grip_force(measured, self._chain)
+        force = self.now.value
+        if force is None:
+            self.filtered, self._touches = None, 0
+            return
+        if self.filtered is None:
+            self.filtered = force
+        self.filtered += (force - self.filtered) * min(dt / TIME_CONSTANT, 1.0)
+        self._touches = self._touches + 1 if force > self._threshold() else 0
+
+    @property
+    def touching(self) -> bool:
+        """Whether the jaws press on something.
+
+        Two samples in a row, so that a single spike is not taken for an object.
+        """
+        return self._touches >= 2
+
+    @property
+    def measured(self) -> bool:
+        """Whether the force comes from a sensor."""
+        return self.now.quality is Quality.GOOD
+
+    def _threshold(self) -> float:
+        return CONTACT_FORCE if self.measured else CONTACT_FORCE_SUBSTITUTED

@@ -1,0 +1,299 @@
+"""One gripper: what it is allowed to do, what it does, what it holds.
+
+Without clock and I/O. Each period the loop passes in a measurement and gets back the
+current to write, or None where nothing has to change.
+"""
+
+from collections.abc import Callable
+
+from gripperd.control.command import (
+    CANCELLED,
+    STOPPED,
+    Command,
+    Failure,
+    GraspOrder,
+    Status,
+)
+from gripperd.control.evaluation import check
+from gripperd.control.execution import Ending, Execution
+from gripperd.control.ledger import Key, Ledger
+from gripperd.control.output import Output
+from gripperd.control.setpoint import at_rest
+from gripperd.control.snapshot import GripperState, Instant
+from gripperd.control.states import TRANSITIONS, Event, Grip, Machine, after
+from gripperd.control.watch import GripWatch
+from gripperd.errors import Refused
+from gripperd.model import Chain
+from gripperd.signals import Measurement
+
+ATTACH_SAMPLES = 3
+"""Measurements taken before the present state is believed and adopted."""
+STOP_TIME = 0.3
+"""Regulator and muscle are at rest after this. [s]"""
+
+
+class Gripper:
+    """The control of one gripper.
+
+    Parameters
+    ----------
+    name
+        As in the configuration.
+    chain
+        Its model.
+    auto_enable
+        Enable by itself after attaching; never moves.
+    identify
+        Gives a new command its id.
+    """
+
+    def __init__(
+        self, name: str, chain: Chain, *, auto_enable: bool, identify: Callable[[], str]
+    ) -> None:
+        self.name = name
+        self.chain = chain
+        self.machine = Machine.OFFLINE
+        self.grip = Grip.UNKNOWN
+        self.ledger = Ledger(name, identify)
+        self._auto_enable = auto_enable
+        self._link = "not connected yet"
+        self._output = Output()
+        self._measured: Measurement | None = None
+        self._watch = GripWatch(chain)
+        self._execution: Execution | None = None
+        self._holding: str | None = None
+        self._dwell = 0.0
+        self._samples = 0
+
+    def submit(
+        self, order: GraspOrder | None, deadline: float, key: Key | None, now: Instant
+    ) -> tuple[Command, bool]:
+        """Accept a command, or return the one its key stands for already.
+
+        Parameters
+        ----------
+        order
+            What to grasp; None to release.
+        deadline
+            Longest time until the command is over. [s]
+        key
+            The client's idempotency key.
+
+        Returns
+        -------
+        The command, and whether it is a replay.
+
+        Raises
+        ------
+        Refused
+            Not now, or not at all; with the reason.
+        InputError
+            The idempotency key was used for another request.
+        """
+        if (known := self.ledger.replay(key)) is not None:
+            return known, True
+        if self.machine is not Machine.EXECUTING:
+            after(self.machine, Event.START)
+        if order is not None:
+            self._check_free()
+            check(order, self.chain)
+        return self.ledger.accept(order, deadline, key, now), False
+
+    def stop(self, now: Instant) -> float | None:
+        """Freeze: end every command and let the jaws rest. Never releases.
+
+        Returns
+        -------
+        The current to write at once, if it has to change. [A]
+        """
+        self.machine = after(self.machine, Event.STOP)
+        self._dwell = 0.0
+        if self._execution is not None:
+            self._freeze()
+        self._end_all(STOPPED, now)
+        return self._output.change()
+
+    def cancel(self, command_id: str, now: Instant) -> float | None:
+        """End one command; if it runs, freeze as by :meth:`stop`.
+
+        Returns
+        -------
+        The current to write at once, if it has to change. [A]
+
+        Raises
+        ------
+        NotFound
+            No such command.
+        Refused
+            It is over already.
+        """
+        command = self.ledger.get(command_id)
+        if command.final:
+            message = f"command {command_id} is over: {command.status}"
+            raise Refused(message, code="already-final")
+        if self._execution is None or self._execution.command.id != command_id:
+            self.ledger.close(command, now.wall, failure=CANCELLED)
+            return None
+        self._interrupt(CANCELLED, now)
+        return self._output.change()
+
+    @property
+    def attached(self) -> bool:
+        """Whether the present state of the hardware is known."""
+        return self.machine not in {Machine.OFFLINE, Machine.ATTACHING}
+
+    def enable(self) -> None:
+        """Allow commands; nothing moves."""
+        self.machine = after(self.machine, Event.ENABLE)
+
+    def disable(self) -> None:
+        """Allow no more commands; the current stays."""
+        self.machine = after(self.machine, Event.DISABLE)
+
+    def state(self, now: Instant) -> GripperState:
+        """Snapshot for whoever asks."""
+        measured = self._measured
+        running = self._execution
+        return GripperState(
+            name=self.name,
+            machine=self.machine,
+            grip=self.grip,
+            available_transitions=tuple(TRANSITIONS[self.machine]),
+            adopted=self._output.adopted,
+            current=self._output.current if self.attached else None,
+            measured=measured,
+            age=None if measured is None else now.monotonic - measured.time,
+            command=None if running is None else running.command.id,
+            holding=self._holding,
+            link=self._link,
+        )
+
+    def link_lost(self, why: str, now: Instant) -> None:
+        """Nothing can be read or written; the module keeps the last current."""
+        self._link = why
+        if self.machine is Machine.OFFLINE:
+            return
+        self.machine = after(self.machine, Event.LINK_LOST)
+        self._end_all(Failure(category="fault", code="link-lost", message=why), now)
+        self.grip = Grip.UNKNOWN
+
+    def period(self, measured: Measurement, dt: float, now: Instant) -> float | None:
+        """Advance by one period.
+
+        Returns
+        -------
+        The current to write, None where it stays. [A]
+        """
+        self._measured = measured
+        self._link = "up"
+        self._watch.update(measured, dt)
+        match self.machine:
+            case Machine.OFFLINE:
+                self.machine = after(self.machine, Event.LINK_UP)
+                self._samples = 0
+                return None
+            case Machine.ATTACHING:
+                self._attach(measured)
+                return None
+            case Machine.READY:
+                self._start_next(now)
+            case Machine.STOPPING:
+                self._dwell += dt
+                if self._dwell > STOP_TIME:
+                    self.machine = after(self.machine, Event.REST)
+            case _:
+                pass
+        self._notice_foreign_write(measured, now)
+        self._execute(measured, dt, now)
+        self._expire(now)
+        self._look()
+        return self._output.change()
+
+    def _check_free(self) -> None:
+        if self.grip is Grip.HOLDING and not self.ledger.releases_first:
+            message = f"{self._holding or 'an object'} is being held"
+            raise Refused(message, code="object-held", hints=("release first",))
+
+    def _attach(self, measured: Measurement) -> None:
+        """Take over what is there; nothing is written before this."""
+        self._samples += 1
+        if measured.current.value is None or self._samples < ATTACH_SAMPLES:
+            return
+        self._output.adopt(measured.current.value)
+        self._holding = None
+        self.grip = self._watch.seen()
+        self.machine = after(self.machine, Event.ADOPT)
+        if self._auto_enable:
+            self.enable()
+
+    def _start_next(self, now: Instant) -> None:
+        if (command := self.ledger.next()) is None:
+            return
+        self.machine = after(self.machine, Event.START)
+        self._execution = Execution(command, self.chain, self._output.current, now.wall)
+        self.ledger.put(self._execution.command)
+        self.grip = self._execution.grip
+        self._holding = None
+
+    def _execute(self, measured: Measurement, dt: float, now: Instant) -> None:
+        if (execution := self._execution) is None:
+            return
+        ending = execution.step(measured, dt)
+        self._output.current = execution.motion.current
+        self.ledger.put(execution.command)
+        if ending is not None:
+            self.machine = after(self.machine, Event.FINISH)
+            self._end(ending, now)
+
+    def _end(self, ending: Ending, now: Instant) -> None:
+        assert self._execution is not None
+        command, self._execution = self._execution.command, None
+        self.grip = ending.grip
+        if self.grip is Grip.HOLDING and command.order is not None:
+            self._holding = command.order.profile.name
+        self.ledger.close(
+            command, now.wall, result=ending.result, failure=ending.failure
+        )
+
+    def _end_all(self, failure: Failure, now: Instant) -> None:
+        if self._execution is not None:
+            self._end(Ending(self._watch.interrupted, None, failure), now)
+        for command in self.ledger.waiting():
+            self.ledger.close(command, now.wall, failure=failure)
+
+    def _interrupt(self, failure: Failure, now: Instant) -> None:
+        self.machine = after(self.machine, Event.STOP)
+        self._dwell = 0.0
+        self._freeze()
+        self._end(Ending(self._watch.interrupted, None, failure), now)
+
+    def _freeze(self) -> None:
+        """Let the jaws rest where they are: the pressure lags behind the current."""
+        if self._measured is not None:
+            output = self._output
+            output.current = at_rest(self._measured, self.chain, output.current)
+
+    def _notice_foreign_write(self, measured: Measurement, now: Instant) -> None:
+        """Adopt a current that something else has set; never fight over the output."""
+        found = measured.current.value
+        if found is None or not self._output.foreign(found):
+            return
+        if self._execution is not None:
+            self.machine = after(self.machine, Event.FINISH)
+            dispute = self._output.dispute(found)
+            self._end(Ending(Grip.UNKNOWN, None, dispute), now)
+        self._output.adopt(found)
+
+    def _expire(self, now: Instant) -> None:
+        for command, failure in self.ledger.overdue(now):
+            if command.status is Status.RUNNING:
+                self._interrupt(failure, now)
+            else:
+                self.ledger.close(command, now.wall, failure=failure)
+
+    def _look(self) -> None:
+        """See for itself: what nobody commanded, and what was lost."""
+        if self._output.adopted and self._execution is None:
+            self.grip = self._watch.seen()
+        elif self.grip is Grip.HOLDING and self._watch.lost:
+            self.grip = Grip.PART_LOST

@@ -1,0 +1,117 @@
+"""The clock of control: read, decide, write, at a fixed rate."""
+
+import asyncio
+import time
+from collections.abc import Callable
+
+from gripperd.control.command import Command, GraspOrder
+from gripperd.control.gripper import Gripper
+from gripperd.control.ledger import Key
+from gripperd.control.snapshot import GripperState, Instant
+from gripperd.drivers.analog import AnalogRig
+from gripperd.errors import LinkError
+
+
+def clock() -> Instant:
+    """The time, on both clocks."""
+    return Instant(time.monotonic(), time.time())
+
+
+class Loop:
+    """Runs one gripper on one rig, and passes on what clients ask.
+
+    Parameters
+    ----------
+    gripper
+        What decides.
+    rig
+        What measures and acts.
+    period
+        Time between two samples. [s]
+    now
+        The clock.
+    """
+
+    def __init__(
+        self,
+        gripper: Gripper,
+        rig: AnalogRig,
+        *,
+        period: float,
+        now: Callable[[], Instant] = clock,
+    ) -> None:
+        self.gripper = gripper
+        self.overruns = 0
+        """Periods that took longer than they should."""
+        self._rig = rig
+        self._period = period
+        self._now = now
+        self._news = asyncio.Event()
+
+    async def run(self) -> None:
+        """Control for ever; each period ends at an absolute deadline."""
+        last = deadline = self._now().monotonic
+        while True:
+            await self._step(last)
+            last = self._now().monotonic
+            self._news.set()
+            self._news = asyncio.Event()
+            deadline += self._period
+            ahead = deadline - self._now().monotonic
+            if ahead < 0:
+                self.overruns += 1
+                deadline -= ahead
+            await asyncio.sleep(max(ahead, 0.0))
+
+    async def _step(self, last: float) -> None:
+        try:
+            measured = await self._rig.read(self._now().monotonic)
+            now = self._now()
+            change = self.gripper.period(measured, now.monotonic - last, now)
+            if change is not None:
+                await self._rig.write(change)
+        except LinkError as error:
+            self.gripper.link_lost(str(error), self._now())
+
+    def state(self) -> GripperState:
+        """Snapshot of the gripper."""
+        return self.gripper.state(self._now())
+
+    def submit(
+        self, order: GraspOrder | None, deadline: float, key: Key | None
+    ) -> tuple[Command, bool]:
+        """Accept a command, see :meth:`Gripper.submit`."""
+        return self.gripper.submit(order, deadline, key, self._now())
+
+    async def stop(self) -> GripperState:
+        """Freeze now: the write passes everything that waits for the bus."""
+        await self._write_at_once(self.gripper.stop(self._now()))
+        return self.state()
+
+    async def cancel(self, command: str) -> Command:
+        """End one command."""
+        await self._write_at_once(self.gripper.cancel(command, self._now()))
+        return self.gripper.ledger.get(command)
+
+    async def wait(self, command: str, seconds: float) -> Command:
+        """One command once it is over, or as it stands when the time is up."""
+        until = self._now().monotonic + seconds
+        while not (found := self.gripper.ledger.get(command)).final:
+            left = until - self._now().monotonic
+            if left <= 0:
+                break
+            try:
+                async with asyncio.timeout(left):
+                    await self._news.wait()
+            except TimeoutError:
+                continue
+        return found
+
+    async def _write_at_once(self, change: float | None) -> None:
+        if change is None:
+            return
+        try:
+            await self._rig.write(change, urgent=True)
+        except LinkError as error:
+            self.gripper.link_lost(str(error), self._now())
+            raise

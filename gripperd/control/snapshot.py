@@ -1,0 +1,39 @@
+"""What anybody may know about a gripper at one moment."""
+
+from dataclasses import dataclass
+
+from gripperd.control.states import Event, Grip, Machine
+from gripperd.signals import Measurement
+
+
+@dataclass(frozen=True, slots=True)
+class Instant:
+    """One moment on both clocks."""
+
+    monotonic: float
+    """For control; never steps. [s]"""
+    wall: float
+    """For people and records; seconds since the epoch."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GripperState:
+    """A snapshot of everything, for whoever asks."""
+
+    name: str
+    machine: Machine
+    grip: Grip
+    available_transitions: tuple[Event, ...]
+    adopted: bool
+    """Whether the present current was found, not commanded."""
+    current: float | None
+    """Commanded valve current. [A]"""
+    measured: Measurement | None
+    age: float | None
+    """Time since that measurement. [s]"""
+    command: str | None
+    """The command that runs."""
+    holding: str | None
+    """Profile of what is held."""
+    link: str
+    """``up``, or why there is none."""
