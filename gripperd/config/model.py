@@ -1,0 +1,209 @@
+"""Model files: muscle, valve, gripper and effects, to a chain in SI."""
+
+# ruff: noqa: N815  (names carry units, and units have capitals)
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import Field, ValidationInfo, field_validator
+
+from gripperd.config.complaint import Complaint, KeyPath
+from gripperd.config.document import Document, read_document
+from gripperd.config.effect import Effects, Library
+from gripperd.config.location import shipped
+from gripperd.config.section import (
+    ENDS,
+    Kilopascals,
+    Milliamperes,
+    Name,
+    Rising,
+    Section,
+    key_of,
+    numbers,
+)
+from gripperd.config.tolerance import Sigmas, moved, without_tolerances
+from gripperd.config.validation import validated
+from gripperd.config.wording import unit_of
+from gripperd.effects import EFFECTS
+from gripperd.errors import ConfigError
+from gripperd.model import (
+    Chain,
+    Linkage,
+    Muscle,
+    MuscleEffect,
+    Regulator,
+    StaticMuscle,
+)
+from gripperd.units import SI_PER_UNIT, split
+
+
+class MuscleSection(Section):
+    """Constants of the muscle, within what could be made."""
+
+    rest_length_mm: float = Field(ge=10, le=10_000)
+    diameter_mm: float = Field(ge=1, le=200)
+    # From 54.7 deg on the ideal muscle pushes.
+    braid_angle_deg: float = Field(ge=5, le=54)
+    wall_thickness_mm: float = Field(gt=0, le=50)
+    elastic_modulus_MPa: float = Field(gt=0, le=1000)
+    friction_coefficient: float = Field(ge=0, le=2)
+
+    @field_validator("wall_thickness_mm")
+    @classmethod
+    def _leave_a_bore(cls, wall: float, read: ValidationInfo) -> float:
+        diameter = read.data.get("diameter_mm")
+        if diameter is not None and 2 * wall >= diameter:
+            message = f"two walls of {wall:g} mm leave no bore in {diameter:g} mm"
+            raise ValueError(message)
+        return wall
+
+
+class ValveSection(Section):
+    """Two points of the regulator's line."""
+
+    current_mA: Rising[Milliamperes]
+    pressure_kPa: Rising[Kilopascals]
+
+
+class GripperSection(Section):
+    """Linkage and return spring."""
+
+    open_width_mm: float = Field(gt=0, le=1000)
+    ratio: float = Field(ge=0.01, le=100, alias="width_per_contraction")
+    spring_preload_N: float = Field(ge=0, le=100_000)
+    spring_rate_N_per_mm: float = Field(ge=0, le=10_000)
+
+
+class ModelSection(Section):
+    """The whole file."""
+
+    name: Name
+    muscle: MuscleSection
+    valve: ValveSection | None = None
+    gripper: GripperSection | None = None
+    effects: Effects = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelFile:
+    """A model as a file has it: perhaps only a muscle."""
+
+    name: str
+    static: StaticMuscle
+    regulator: Regulator | None
+    linkage: Linkage | None
+    tolerances: Mapping[str, float]
+    """One sigma by path, as in :class:`gripperd.model.Chain`. [SI]"""
+    source: str
+    """The file it came from."""
+
+    def chain(self) -> Chain:
+        """Build the chain from valve current to grip force.
+
+        Raises
+        ------
+        ConfigError
+            When the file has no valve or no gripper.
+        """
+        if self.regulator is None or self.linkage is None:
+            parts = {"valve": self.regulator, "gripper": self.linkage}
+            raise ConfigError(
+                *(
+                    Complaint(
+                        "is missing; without it a current gives no grip force",
+                        source=self.source,
+                        path=(key,),
+                    )
+                    for key, part in parts.items()
+                    if part is None
+                )
+            )
+        return Chain(
+            self.name, self.static, self.regulator, self.linkage, self.tolerances
+        )
+
+
+def load_model(
+    path: Path, effects: Mapping[str, type[MuscleEffect]] = EFFECTS
+) -> ModelFile:
+    """Read a model file.
+
+    Parameters
+    ----------
+    path
+        The file; its format is that of the shipped ``models/reference.yaml``.
+    effects
+        Effects the file may name.
+
+    Raises
+    ------
+    ConfigError
+        With everything that is wrong with it.
+    """
+    document, sigmas = without_tolerances(read_document(path))
+    section = validated(ModelSection, document, Library(document, effects))
+    _check_ends(document, sigmas, effects)
+    return ModelFile(
+        name=section.name,
+        static=StaticMuscle(Muscle(**numbers(section.muscle)), section.effects),
+        regulator=Regulator(**numbers(section.valve)) if section.valve else None,
+        linkage=Linkage(**numbers(section.gripper)) if section.gripper else None,
+        tolerances=_constants(section, sigmas),
+        source=str(path),
+    )
+
+
+def load_chain(path: Path) -> Chain:
+    """Read a model file that has all parts.
+
+    Raises
+    ------
+    ConfigError
+        With everything that is wrong with it, or missing.
+    """
+    return load_model(path).chain()
+
+
+def reference_chain() -> Chain:
+    """Give the shipped reference rig."""
+    return load_chain(shipped("models/reference.yaml"))
+
+
+def _check_ends(
+    document: Document, sigmas: Sigmas, effects: Mapping[str, type[MuscleEffect]]
+) -> None:
+    """Refuse a tolerance of which one sigma is already impossible."""
+    for by, word in ((1, "plus"), (-1, "minus")):
+        end = moved(document, sigmas, by)
+        try:
+            validated(ModelSection, end, Library(end, effects))
+        except ConfigError as refused:
+            raise ConfigError(
+                *(
+                    end.complaint(said.path, f"{word} its tolerance, {said.detail}")
+                    for said in refused.complaints
+                    if isinstance(said, Complaint)
+                )
+            ) from None
+
+
+def _constants(section: ModelSection, sigmas: Sigmas) -> dict[str, float]:
+    return {
+        _constant(section, path): sigma * SI_PER_UNIT.get(unit_of(path) or "", 1.0)
+        for path, sigma in sigmas.items()
+    }
+
+
+def _constant(section: ModelSection, path: KeyPath) -> str:
+    """Path of a constant in a chain, from its place in a file that passed the schema.
+
+    ``("valve", "pressure_kPa", 1)`` gives ``valve.pressure_high``.
+    """
+    part, step, *rest = path
+    if part == "effects":
+        effect = section.effects[int(step)]
+        return f"effects.{effect.name}.{split(str(rest[0]))[0]}"
+    schema = type(getattr(section, str(part)))
+    field = {key_of(schema, field): field for field in schema.model_fields}[str(step)]
+    return "_".join([f"{part}.{split(field)[0]}", *(ENDS[int(end)] for end in rest)])

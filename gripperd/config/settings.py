@@ -1,0 +1,79 @@
+"""What a daemon is told to do: the settings of every layer, put together. SI values."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from gripperd.control.profile import Profile
+from gripperd.drivers.analog import InputWiring, OutputWiring
+from gripperd.drivers.bus import TcpAddress
+from gripperd.model import Chain
+
+
+class FailMode(StrEnum):
+    """What the hardware does when power or air is lost; no software can change it."""
+
+    VENT = "vent"
+    """The muscle loses its pressure: the object is released."""
+    FREEZE = "freeze"
+    """The pressure is trapped: the grip decays with the leaks."""
+    SPRING_CLOSE = "spring_close"
+    """A spring closes the jaws: the object stays held."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Http:
+    """Where the service listens."""
+
+    host: str
+    port: int
+    """0: any free port."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BenchSettings:
+    """The simulated rig, for the grippers on it."""
+
+    host: str
+    port: int
+    """0: any free port."""
+    seed: int
+    noise: float
+    """One sigma of every sensor, relative to its span. [-]"""
+
+
+@dataclass(frozen=True, slots=True)
+class BenchBus:
+    """The bus of the simulated rig, wherever it listens."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GripperSettings:
+    """One gripper: its wiring, its model, its habits."""
+
+    name: str
+    bus: BenchBus | TcpAddress
+    output: OutputWiring
+    input: InputWiring | None
+    """None: no sensors are fitted; all is left to the model."""
+    chain: Chain
+    fail_mode: FailMode
+    auto_enable: bool
+    """Enable after a start without being asked."""
+    rate: float
+    """Samples per second of the control loop. [Hz]"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """Everything a daemon needs to start."""
+
+    http: Http
+    runtime_dir: Path
+    """Where the sockets between the processes live."""
+    grippers: Mapping[str, GripperSettings]
+    profiles: Mapping[str, Profile]
+    bench: BenchSettings
+    source: Path
+    """The file all this was read from."""

@@ -1,0 +1,180 @@
+"""The settings file, with the models and profiles it names."""
+
+# ruff: noqa: N815  (names carry units, and units have capitals)
+
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field, PlainValidator, ValidationInfo, field_validator
+
+from gripperd.config.document import read_document
+from gripperd.config.location import shipped
+from gripperd.config.model import load_chain
+from gripperd.config.profile import load_profiles
+from gripperd.config.section import Name, Section
+from gripperd.config.settings import (
+    BenchBus,
+    BenchSettings,
+    FailMode,
+    GripperSettings,
+    Http,
+    Settings,
+)
+from gripperd.config.validation import validated
+from gripperd.config.wiring import (
+    Address,
+    BusName,
+    HostPort,
+    InputSection,
+    OutputSection,
+    TcpSection,
+)
+from gripperd.config.wording import shown
+from gripperd.control.profile import Profile
+from gripperd.model import Chain
+
+
+def _chain(name: object, asked: ValidationInfo) -> Chain:
+    return load_chain(_named(name, asked))
+
+
+def _profiles(name: object, asked: ValidationInfo) -> Mapping[str, Profile]:
+    return load_profiles(_named(name, asked))
+
+
+def _named(name: object, asked: ValidationInfo) -> Path:
+    """Path of a file or folder that the settings name, relative to their own."""
+    folder = Path(asked.context or "")
+    # The name may be too long, or lead where this user may not look.
+    with suppress(OSError):
+        if isinstance(name, str) and (folder / name).exists():
+            return folder / name
+    message = f"{shown(name)} cannot be found from {folder}"
+    raise ValueError(message)
+
+
+class HttpSection(Section):
+    """Where the service listens."""
+
+    host: str = Field(default="127.0.0.1", min_length=1, max_length=253)
+    port: int = Field(default=8765, ge=0, le=65535)
+
+
+class BenchSection(Section):
+    """The simulated rig."""
+
+    tcp: HostPort = Address("127.0.0.1", 15020)
+    seed: int = Field(default=1, ge=0, le=2**32 - 1)
+    noise_percent: float = Field(default=0.05, ge=0, le=10)
+
+
+class GripperSection(Section):
+    """One gripper."""
+
+    bus: BusName
+    output: OutputSection
+    input: InputSection | None = None
+    model: Annotated[Chain, PlainValidator(_chain)]
+    fail_mode: Annotated[FailMode, Field(strict=False)]
+    auto_enable: bool = False
+    rate_Hz: float = Field(default=100.0, ge=1, le=500)
+
+    def settings(self, name: str) -> GripperSettings:
+        """The same in SI."""
+        tcp = self.bus.address if isinstance(self.bus, TcpSection) else None
+        return GripperSettings(
+            name=name,
+            bus=tcp or BenchBus(),
+            output=self.output.wiring,
+            input=self.input.wiring if self.input else None,
+            chain=self.model,
+            fail_mode=self.fail_mode,
+            auto_enable=self.auto_enable,
+            rate=self.rate_Hz,
+        )
+
+
+class SettingsSection(Section):
+    """The whole file."""
+
+    http: HttpSection = HttpSection()
+    runtime_dir: str | None = Field(default=None, min_length=1)
+    grippers: dict[Name, GripperSection] = Field(min_length=1)
+    profiles: Annotated[Mapping[str, Profile], PlainValidator(_profiles)]
+    bench: BenchSection = BenchSection()
+
+    @field_validator("grippers")
+    @classmethod
+    def _share_nothing(
+        cls, grippers: dict[str, GripperSection]
+    ) -> dict[str, GripperSection]:
+        owner: dict[str, str] = {}
+        for name, gripper in grippers.items():
+            for thing, use in _uses(name, gripper):
+                if owner.setdefault(thing, use) != use:
+                    message = f"{thing} is both {owner[thing]} and {use}"
+                    raise ValueError(message)
+        return grippers
+
+
+def _uses(name: str, gripper: GripperSection) -> Iterator[tuple[str, str]]:
+    """What a gripper claims on its bus, and what for."""
+    bus, output = gripper.bus, gripper.output
+    where = str(bus.address) if isinstance(bus, TcpSection) else bus
+    unit = f"unit {output.unit} on {where}"
+    yield unit, output.module.name
+    yield f"channel {output.channel} of {unit}", f"the valve of {name}"
+    if gripper.input:
+        yield f"unit {gripper.input.unit} on {where}", gripper.input.module.name
+
+
+def load_settings(
+    path: Path | None = None, environ: Mapping[str, str] = os.environ
+) -> Settings:
+    """Read the settings, and every model and profile they name.
+
+    Parameters
+    ----------
+    path
+        The file; None takes what ``GRIPPERD_CONFIG`` names, or else the shipped bench.
+    environ
+        The environment: ``GRIPPERD_CONFIG``, and ``RUNTIME_DIRECTORY`` as systemd sets
+        it.
+
+    Raises
+    ------
+    ConfigError
+        With everything that is wrong with any of the files.
+    """
+    named = environ.get("GRIPPERD_CONFIG")
+    source = path or (Path(named) if named else shipped("gripperd.yaml"))
+    folder = source.parent
+    section = validated(SettingsSection, read_document(source), folder)
+    bench = section.bench
+    return Settings(
+        http=Http(host=section.http.host, port=section.http.port),
+        runtime_dir=_runtime_dir(section.runtime_dir, folder, environ),
+        grippers={
+            name: gripper.settings(name) for name, gripper in section.grippers.items()
+        },
+        profiles=section.profiles,
+        bench=BenchSettings(
+            host=bench.tcp.host,
+            port=bench.tcp.port,
+            seed=bench.seed,
+            noise=bench.noise_percent / 100,
+        ),
+        source=source,
+    )
+
+
+def _runtime_dir(named: str | None, folder: Path, environ: Mapping[str, str]) -> Path:
+    if named is not None:
+        return folder / named
+    # systemd lists several directories with colons; the first is the unit's own.
+    given = environ.get("RUNTIME_DIRECTORY", "").partition(":")[0]
+    return Path(given or Path(tempfile.gettempdir(), f"gripperd-{os.getuid()}"))
