@@ -93,6 +93,9 @@ class Failure:
 
 STOPPED = Failure(category="cancelled", code="stopped", message="stopped")
 CANCELLED = Failure(category="cancelled", code="cancelled", message="cancelled")
+OBJECT_HELD = Failure(
+    category="precondition", code="object-held", message="an object is held by then"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,6 +8,9 @@ from gripperd.errors import DomainError, Refused
 from gripperd.model import Chain, Prediction
 from gripperd.units import KILO, MILLI
 
+ROUNDING = 1e-9
+"""A target exactly at a margin may come out this much beyond it. [-]"""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Evaluation:
@@ -71,14 +74,14 @@ def _reasons(
             f" mA (up to {regulator.pressure_high / KILO:g} kPa)"
         )
     highest = profile.damage_force / profile.crush_margin
-    if force > highest:
+    if force > highest * (1 + ROUNDING):
         reasons.append(
             f"{force:.2f} N per jaw is over {highest:.2f} N: {profile.name} is damaged"
             f" at {profile.damage_force:g} N, and its crush margin is"
             f" {profile.crush_margin:g}"
         )
     lowest = profile.slip_force * profile.slip_margin
-    if force < lowest:
+    if force < lowest * (1 - ROUNDING):
         reasons.append(
             f"{force:.2f} N per jaw is under {lowest:.2f} N: {profile.name} slips at"
             f" {profile.slip_force:.2f} N, and its slip margin is"

@@ -14,6 +14,7 @@ from gripperd.control.release import Release
 from gripperd.control.states import Grip
 from gripperd.model import Chain
 from gripperd.signals import Measurement
+from gripperd.units import MILLI
 
 GRIP_AFTER = {
     Outcome.HELD: Grip.HOLDING,
@@ -63,13 +64,22 @@ class Execution:
             self.grip = Grip.RELEASING
 
     def step(self, measured: Measurement, dt: float) -> Ending | None:
-        """Advance by one period; afterwards ``motion.current`` is what to write."""
+        """Advance by one period; write ``motion.ramp.current`` afterwards."""
         if isinstance(self.motion, Grasp):
             outcome = self.motion.step(measured, dt)
-            self.command = replace(self.command, phase=self.motion.phase)
+            self._note(self.motion)
             return None if outcome is None else self._grasped(outcome, measured)
         opened = self.motion.step(measured, dt)
         return None if opened is None else _released(opened=opened)
+
+    def _note(self, grasp: Grasp) -> None:
+        """Keep a line for each phase, for whoever reads the command later."""
+        if grasp.phase == self.command.phase:
+            return
+        current = grasp.ramp.current / MILLI
+        line = f"{grasp.elapsed:.2f} s: {grasp.phase} from {current:.2f} mA"
+        log = (*self.command.log, line)
+        self.command = replace(self.command, phase=grasp.phase, log=log)
 
     def _grasped(self, outcome: Outcome, measured: Measurement) -> Ending:
         assert isinstance(self.motion, Grasp)

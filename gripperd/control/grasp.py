@@ -9,14 +9,13 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from gripperd.control.command import GraspOrder, GraspResult, Outcome
-from gripperd.control.force import CONTACT_FORCE, ForceSense
+from gripperd.control.force import ForceSense
+from gripperd.control.plan import Plan
 from gripperd.control.profile import Mode
-from gripperd.control.setpoint import at_rest, ramped, within
-from gripperd.model import Chain, PressedObject
+from gripperd.control.setpoint import Ramp, reached, within
+from gripperd.model import Chain
 from gripperd.signals import Measurement
 
-CLEARANCE = 2e-3
-"""How far before the largest allowed object the slow ramp begins. [m]"""
 CLOSED = 1.5e-3
 """Opening below which the jaws touch each other, not an object. [m]"""
 TRIP_MARGIN = 1.15
@@ -25,12 +24,14 @@ SETTLE = 0.4
 """Time in which regulator and muscle follow the last step of the current. [s]"""
 PROOF = 0.7
 """How long a grip must prove itself: a slipping object falls 20 mm meanwhile. [s]"""
+FOLLOWED = 0.9
+"""Share of the wanted pressure that counts as reached. [-]"""
 CORRECTION_RATE = 3.0
 """Share of the force error that is corrected in a second. [1/s]"""
 CORRECTION_TIME = 4.0
 """Longest time for the force to come within tolerance. [s]"""
-TOLERANCE_SHARE = 0.02
-TOLERANCE_LEAST = 0.1
+TOLERANCE_SHARE = 0.03
+TOLERANCE_LEAST = 0.2
 """Force error that counts as none: a share of the target, at least this. [N]"""
 SLIP_DROP = 0.5
 """Share of the force that may vanish while the grip proves itself. [-]"""
@@ -73,21 +74,20 @@ class Grasp:
     def __init__(self, order: GraspOrder, chain: Chain, current: float) -> None:
         self.order = order
         self.phase = Phase.APPROACH
-        self.current = current
-        """Valve current asked for. [A]"""
+        self.ramp = Ramp(current)
         self.elapsed = 0.0
         """Time since the start. [s]"""
-        self.size: float | None = None
-        """Opening at first contact. [m]"""
         self._chain = chain
+        self._plan = Plan(order, chain)
         self._force = ForceSense(chain)
         self._dwell = 0.0
         self._proof: Proof | None = None
-        self._goal = self._goal_for(order.profile.pressed)
-        self._limit = self._closing_limit()
+        self._eased = False
+        self._near, self._limit = self._plan.near, self._plan.closing_limit
+        self._goal = self._safest = self._plan.goal
 
     def step(self, measured: Measurement, dt: float) -> Outcome | None:
-        """Advance by one period; afterwards `current` is what to write.
+        """Advance by one period; afterwards ``ramp.current`` is to be written.
 
         Parameters
         ----------
@@ -101,6 +101,7 @@ class Grasp:
         The outcome when the grasp is over, else None.
         """
         self.elapsed += dt
+        self.ramp.tick(dt)
         self._force.update(measured, dt)
         if self._over_limit():
             self._reduce()
@@ -115,37 +116,44 @@ class Grasp:
             case Phase.VERIFY:
                 return self._verify(measured, dt)
 
+    def rest(self, measured: Measurement) -> None:
+        """Let the jaws rest where they are."""
+        self.ramp.rest(reached(measured, self._chain.regulator))
+
     def result(self, outcome: Outcome, measured: Measurement) -> GraspResult:
         """What was found, with the model's view beside it."""
         profile, opening = self.order.profile, measured.opening.value
-        force = self._proven_force()
+        touched = self._plan.size is not None or self._proof is not None
         predicted = std = None
-        if opening is not None:
-            predicted = max(float(self._chain.grip_force(self.current, opening)), 0.0)
-            std = self._chain.std(self.current, PressedObject(opening))
-        held = force is not None and force > 0
+        if touched and opening is not None:
+            found = measured.current.value
+            current = self.ramp.current if found is None else found
+            predicted, std = self._plan.expected(current, opening, eased=self._eased)
+        force = self._proven_force()
+        slip = crush = None
+        if touched and force is not None and force > 0:
+            slip = force / profile.slip_force
+            crush = profile.damage_force / force
         return GraspResult(
             outcome=outcome,
-            size=self.size,
+            size=self._plan.size,
             opening=opening,
             force=force,
             force_quality=self._force.now.quality,
             predicted_force=predicted,
             predicted_std=std,
-            current=self.current,
+            current=self.ramp.current,
             pressure=measured.pressure.value,
-            slip_margin=force / profile.slip_force if held and force else None,
-            crush_margin=profile.damage_force / force if held and force else None,
+            slip_margin=slip,
+            crush_margin=crush,
             duration=self.elapsed,
         )
 
     def _approach(self, measured: Measurement, dt: float) -> Outcome | None:
         if self._force.touching:
             return self._contact(measured)
-        profile, linkage = self.order.profile, self._chain.linkage
-        widest = profile.diameter + profile.larger + CLEARANCE
-        near = float(self._chain.current(0.0, min(widest, linkage.open_width)))
-        if self._ramp_to(min(near, self._limit), profile.approach * dt):
+        goal = min(self._near, self._limit)
+        if self.ramp.towards(goal, self.order.profile.approach, dt):
             self._enter(Phase.TOUCH)
         return None
 
@@ -156,30 +164,45 @@ class Grasp:
             # Nothing can be felt: go on blind, and own up to it at the end.
             self._enter(Phase.BUILD)
             return None
-        if self._ramp_to(self._limit, self.order.profile.ramp * dt):
+        if self.ramp.towards(self._limit, self.order.profile.ramp, dt):
             self._dwell += dt
-        return Outcome.NO_OBJECT if self._dwell > SETTLE else None
+        if self._dwell <= SETTLE:
+            return None
+        return (
+            Outcome.NO_OBJECT if self._closed(measured) else Outcome.FORCE_NOT_REACHED
+        )
+
+    def _closed(self, measured: Measurement) -> bool:
+        """Whether the jaws went past where the smallest object would be."""
+        profile, opening = self.order.profile, measured.opening.value
+        if opening is not None:
+            return opening < profile.diameter - profile.smaller
+        pressure = measured.pressure.value
+        wanted = float(self._chain.regulator.pressure(self.ramp.current))
+        return pressure is None or pressure > FOLLOWED * wanted
 
     def _contact(self, measured: Measurement) -> Outcome | None:
-        profile = self.order.profile
-        self.size = measured.opening.value
-        if self.size is not None:
+        profile, opening = self.order.profile, measured.opening.value
+        if opening is not None:
+            # By now the object yields a little to the force that is felt.
+            size = opening + (self._force.now.value or 0.0) / profile.stiffness
+            self._plan.touch(size)
             verdict = None
-            if self.size < CLOSED:
+            if opening < CLOSED:
                 verdict = Outcome.NO_OBJECT
-            elif self.size < profile.diameter - profile.smaller:
+            elif size < profile.diameter - profile.smaller:
                 verdict = Outcome.TOO_SMALL
-            elif self.size > profile.diameter + profile.larger:
+            elif size > profile.diameter + profile.larger:
                 verdict = Outcome.TOO_LARGE
             if verdict is not None:
-                self.current = at_rest(measured, self._chain, self.current)
+                self.rest(measured)
                 return verdict
-            self._goal = self._goal_for(replace(profile.pressed, diameter=self.size))
+        self._goal, self._safest = self._plan.goal, self._plan.safest
         self._enter(Phase.BUILD)
         return None
 
     def _build(self, measured: Measurement, dt: float) -> Outcome | None:
-        if not self._ramp_to(self._goal, self.order.profile.ramp * dt):
+        if not self.ramp.towards(self._goal, self.order.profile.ramp, dt):
             return None
         self._dwell += dt
         if self._dwell < SETTLE:
@@ -196,11 +219,16 @@ class Grasp:
             self._prove(measured)
             return None
         if self._dwell > SETTLE + CORRECTION_TIME:
-            return Outcome.FORCE_NOT_REACHED
-        change = error * self._current_per_newton() * CORRECTION_RATE * dt
-        limit = self.order.profile.ramp * dt
-        goal = self._goal + min(max(change, -limit), limit)
-        self._goal = self.current = within(self._chain.regulator, goal)
+            if error > 0:
+                return Outcome.FORCE_NOT_REACHED
+            # Friction keeps what the touch had in excess; the limits still hold.
+            self._prove(measured)
+            return None
+        rate = abs(error) * self._plan.current_per_newton(force) * CORRECTION_RATE
+        self._goal = self._safest if error > 0 else self._chain.regulator.current_low
+        self._eased = self._eased or error < 0
+        self.ramp.towards(self._goal, min(rate, self.order.profile.ramp), dt)
+        self._goal = self.ramp.current
         return None
 
     def _prove(self, measured: Measurement) -> None:
@@ -236,38 +264,16 @@ class Grasp:
 
     def _reduce(self) -> None:
         """Take the force back to the safe side: venting would drop the object."""
-        profile, force = self.order.profile, self._force.now.value or 0.0
-        excess = max(force - profile.damage_force / profile.crush_margin, 0.0)
-        reduced = self.current - excess * self._current_per_newton()
-        self.current = within(self._chain.regulator, reduced)
+        self._eased = True
+        # What is felt belongs to the current of a moment ago; the valve is in doubt.
+        self.ramp.rest(None)
+        reduced = self.ramp.current - self._plan.reduction(self._force.now.value or 0.0)
+        self.ramp.current = within(self._chain.regulator, reduced)
 
     def _proven_force(self) -> float | None:
         if self._proof is not None and self._proof.samples:
             return self._proof.total / self._proof.samples
         return self._force.now.value
-
-    def _current_per_newton(self) -> float:
-        """Change of current for a change of grip force, at the object. [A/N]."""
-        force, pressed = self._force.filtered or 0.0, self.order.profile.pressed
-        more = self._chain.current_for(force + 1.0, pressed)
-        return more - self._chain.current_for(force, pressed)
-
-    def _goal_for(self, pressed: PressedObject) -> float:
-        if self.order.mode is Mode.CURRENT:
-            return self.order.target
-        current = self._chain.current_for(self.order.target, pressed)
-        return within(self._chain.regulator, current)
-
-    def _closing_limit(self) -> float:
-        """Current beyond which closing on nothing is not pursued. [A]."""
-        if self.order.mode is Mode.CURRENT:
-            return self.order.target
-        closed = float(self._chain.current(CONTACT_FORCE, 0.0))
-        return within(self._chain.regulator, max(closed, self._goal))
-
-    def _ramp_to(self, goal: float, step: float) -> bool:
-        self.current = ramped(self.current, goal, step)
-        return self.current == goal
 
     def _enter(self, phase: Phase) -> None:
         self.phase = phase

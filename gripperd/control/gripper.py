@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from gripperd.control.command import (
     CANCELLED,
+    OBJECT_HELD,
     STOPPED,
     Command,
     Failure,
@@ -18,11 +19,10 @@ from gripperd.control.evaluation import check
 from gripperd.control.execution import Ending, Execution
 from gripperd.control.ledger import Key, Ledger
 from gripperd.control.output import Output
-from gripperd.control.setpoint import at_rest
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.control.states import TRANSITIONS, Event, Grip, Machine, after
 from gripperd.control.watch import GripWatch
-from gripperd.errors import Refused
+from gripperd.errors import GripperdError, Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
 
@@ -68,7 +68,7 @@ class Gripper:
     def submit(
         self, order: GraspOrder | None, deadline: float, key: Key | None, now: Instant
     ) -> tuple[Command, bool]:
-        """Accept a command, or return the one its key stands for already.
+        """Accept a command, or give the one its key stands for already, and True.
 
         Parameters
         ----------
@@ -79,16 +79,12 @@ class Gripper:
         key
             The client's idempotency key.
 
-        Returns
-        -------
-        The command, and whether it is a replay.
-
         Raises
         ------
         Refused
-            Not now, or not at all; with the reason.
+            Not now, or not at all.
         InputError
-            The idempotency key was used for another request.
+            The key was used for another request.
         """
         if (known := self.ledger.replay(key)) is not None:
             return known, True
@@ -102,30 +98,21 @@ class Gripper:
     def stop(self, now: Instant) -> float | None:
         """Freeze: end every command and let the jaws rest. Never releases.
 
-        Returns
-        -------
-        The current to write at once, if it has to change. [A]
+        Returns the current to write at once, None where it stays. [A]
         """
         self.machine = after(self.machine, Event.STOP)
         self._dwell = 0.0
-        if self._execution is not None:
-            self._freeze()
+        self._freeze()
         self._end_all(STOPPED, now)
         return self._output.change()
 
     def cancel(self, command_id: str, now: Instant) -> float | None:
-        """End one command; if it runs, freeze as by :meth:`stop`.
-
-        Returns
-        -------
-        The current to write at once, if it has to change. [A]
+        """End one command; if it runs, freeze as by :meth:`stop`, returning the same.
 
         Raises
         ------
-        NotFound
-            No such command.
-        Refused
-            It is over already.
+        NotFound, Refused
+            No such command; or it is over already.
         """
         command = self.ledger.get(command_id)
         if command.final:
@@ -146,9 +133,10 @@ class Gripper:
         """Allow commands; nothing moves."""
         self.machine = after(self.machine, Event.ENABLE)
 
-    def disable(self) -> None:
-        """Allow no more commands; the current stays."""
+    def disable(self, now: Instant) -> None:
+        """Allow no more commands, nor those that wait; the current stays."""
         self.machine = after(self.machine, Event.DISABLE)
+        self._end_all(CANCELLED, now)
 
     def state(self, now: Instant) -> GripperState:
         """Snapshot for whoever asks."""
@@ -229,6 +217,9 @@ class Gripper:
     def _start_next(self, now: Instant) -> None:
         if (command := self.ledger.next()) is None:
             return
+        if command.order is not None and self.grip is Grip.HOLDING:
+            self.ledger.close(command, now.wall, failure=OBJECT_HELD)
+            return
         self.machine = after(self.machine, Event.START)
         self._execution = Execution(command, self.chain, self._output.current, now.wall)
         self.ledger.put(self._execution.command)
@@ -238,8 +229,14 @@ class Gripper:
     def _execute(self, measured: Measurement, dt: float, now: Instant) -> None:
         if (execution := self._execution) is None:
             return
-        ending = execution.step(measured, dt)
-        self._output.current = execution.motion.current
+        try:
+            ending = execution.step(measured, dt)
+        except GripperdError as error:
+            # The model has no answer to what the sensors say: rest, and say so.
+            failure = Failure(category="fault", code="no-answer", message=str(error))
+            self._interrupt(failure, now)
+            return
+        self._output.current = execution.motion.ramp.current
         self.ledger.put(execution.command)
         if ending is not None:
             self.machine = after(self.machine, Event.FINISH)
@@ -251,6 +248,7 @@ class Gripper:
         self.grip = ending.grip
         if self.grip is Grip.HOLDING and command.order is not None:
             self._holding = command.order.profile.name
+        self._watch.hold()
         self.ledger.close(
             command, now.wall, result=ending.result, failure=ending.failure
         )
@@ -269,9 +267,9 @@ class Gripper:
 
     def _freeze(self) -> None:
         """Let the jaws rest where they are: the pressure lags behind the current."""
-        if self._measured is not None:
-            output = self._output
-            output.current = at_rest(self._measured, self.chain, output.current)
+        if self._execution is not None and self._measured is not None:
+            self._execution.motion.rest(self._measured)
+            self._output.current = self._execution.motion.ramp.current
 
     def _notice_foreign_write(self, measured: Measurement, now: Instant) -> None:
         """Adopt a current that something else has set; never fight over the output."""
@@ -297,3 +295,4 @@ class Gripper:
             self.grip = self._watch.seen()
         elif self.grip is Grip.HOLDING and self._watch.lost:
             self.grip = Grip.PART_LOST
+            self._holding = None

@@ -3,6 +3,7 @@
 from collections import OrderedDict, deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 
 from gripperd.control.command import (
     Command,
@@ -95,10 +96,15 @@ class Ledger:
         self._open.add(command.id)
         if key is not None:
             self._keys[key.text] = (key, command.id)
-        while len(self._commands) > HISTORY:
-            forgotten, _ = self._commands.popitem(last=False)
-            self._keys = {k: v for k, v in self._keys.items() if v[1] != forgotten}
+        self._forget()
         return command
+
+    def _forget(self) -> None:
+        """Drop the oldest commands that are over."""
+        over = (name for name in tuple(self._commands) if name not in self._open)
+        for name in islice(over, max(len(self._commands) - HISTORY, 0)):
+            del self._commands[name]
+            self._keys = {k: v for k, v in self._keys.items() if v[1] != name}
 
     def get(self, command: str) -> Command:
         """One command.

@@ -52,8 +52,7 @@ class Loop:
         """Control for ever; each period ends at an absolute deadline."""
         last = deadline = self._now().monotonic
         while True:
-            await self._step(last)
-            last = self._now().monotonic
+            last = await self._step(last)
             self._news.set()
             self._news = asyncio.Event()
             deadline += self._period
@@ -63,15 +62,18 @@ class Loop:
                 deadline -= ahead
             await asyncio.sleep(max(ahead, 0.0))
 
-    async def _step(self, last: float) -> None:
+    async def _step(self, last: float) -> float:
+        """One period; the time of its decision, which the next counts from."""
+        now = self._now()
         try:
-            measured = await self._rig.read(self._now().monotonic)
+            measured = await self._rig.read(now.monotonic)
             now = self._now()
             change = self.gripper.period(measured, now.monotonic - last, now)
             if change is not None:
                 await self._rig.write(change)
         except LinkError as error:
             self.gripper.link_lost(str(error), self._now())
+        return now.monotonic
 
     def state(self) -> GripperState:
         """Snapshot of the gripper."""
@@ -82,6 +84,14 @@ class Loop:
     ) -> tuple[Command, bool]:
         """Accept a command, see :meth:`Gripper.submit`."""
         return self.gripper.submit(order, deadline, key, self._now())
+
+    def enable(self) -> None:
+        """Allow commands."""
+        self.gripper.enable()
+
+    def disable(self) -> None:
+        """Allow no more commands."""
+        self.gripper.disable(self._now())
 
     async def stop(self) -> GripperState:
         """Freeze now: the write passes everything that waits for the bus."""

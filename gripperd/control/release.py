@@ -1,7 +1,7 @@
 """Opening the jaws: the current ramps down to the live zero and the jaws let go."""
 
 from gripperd.control.force import ForceSense
-from gripperd.control.setpoint import ramped
+from gripperd.control.setpoint import Ramp, reached
 from gripperd.model import Chain
 from gripperd.signals import Measurement
 
@@ -17,8 +17,7 @@ class Release:
     """A release from its first step to its end."""
 
     def __init__(self, chain: Chain, current: float) -> None:
-        self.current = current
-        """Valve current asked for. [A]"""
+        self.ramp = Ramp(current)
         self._chain = chain
         self._force = ForceSense(chain)
         self._dwell = 0.0
@@ -29,9 +28,8 @@ class Release:
         With neither pressure nor force to go by, the time that it takes is believed.
         """
         self._force.update(measured, dt)
-        regulator = self._chain.regulator
-        self.current = ramped(self.current, regulator.current_low, RATE * dt)
-        if self.current > regulator.current_low:
+        self.ramp.tick(dt)
+        if not self.ramp.towards(self._chain.regulator.current_low, RATE, dt):
             return None
         self._dwell += dt
         pressure, force = measured.pressure.value, self._force.now.value
@@ -41,3 +39,7 @@ class Release:
         if vented and not self._force.touching:
             return True
         return False if self._dwell > SETTLE else None
+
+    def rest(self, measured: Measurement) -> None:
+        """Let the jaws rest where they are."""
+        self.ramp.rest(reached(measured, self._chain.regulator))

@@ -95,13 +95,29 @@ TRANSITIONS: Mapping[Machine, Mapping[Event, Machine]] = MappingProxyType(
         | {Event.REACTED: Machine.FAULT, Event.STOP: Machine.FAULT_REACTION},
         Machine.FAULT: _ONLINE
         | {Event.RESET: Machine.DISABLED, Event.STOP: Machine.FAULT},
-        Machine.ESTOPPED: _ONLINE
-        | {Event.ESTOP_RELEASED: Machine.DISABLED, Event.STOP: Machine.ESTOPPED},
+        # Neither a fault nor a second emergency stop ends an emergency stop.
+        Machine.ESTOPPED: {
+            Event.LINK_LOST: Machine.OFFLINE,
+            Event.ESTOP_RELEASED: Machine.DISABLED,
+            Event.ESTOP: Machine.ESTOPPED,
+            Event.FAIL: Machine.ESTOPPED,
+            Event.STOP: Machine.ESTOPPED,
+        },
         Machine.MAINTENANCE: _ONLINE
-        | {Event.MAINTAINED: Machine.DISABLED, Event.STOP: Machine.STOPPING},
+        | {Event.MAINTAINED: Machine.DISABLED, Event.STOP: Machine.MAINTENANCE},
     }
 )
 """Every allowed pair; a pair that is not listed is refused."""
+
+
+_ASKED = {
+    Event.START: "a command",
+    Event.ENABLE: "enable",
+    Event.DISABLE: "disable",
+    Event.STOP: "stop",
+    Event.RESET: "reset",
+}
+"""What clients can ask for, in their words; the rest happens by itself."""
 
 
 def after(state: Machine, event: Event) -> Machine:
@@ -114,7 +130,13 @@ def after(state: Machine, event: Event) -> Machine:
     """
     allowed = TRANSITIONS[state]
     if event not in allowed:
-        possible = ", ".join(allowed)
-        message = f"'{event}' is not possible while the gripper is {state}"
-        raise Refused(message, code="wrong-state", hints=(f"possible now: {possible}",))
+        possible = [words for asked, words in _ASKED.items() if asked in allowed]
+        message = (
+            f"{_ASKED.get(event, event)} is not possible while the gripper is {state}"
+        )
+        raise Refused(
+            message,
+            code="wrong-state",
+            hints=(f"possible now: {', '.join(possible) or 'nothing, only waiting'}",),
+        )
     return allowed[event]

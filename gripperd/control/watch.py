@@ -8,6 +8,8 @@ from gripperd.signals import Measurement
 
 LOST_SAMPLES = 5
 """Samples without contact after which a held part counts as lost."""
+LOST_TRAVEL = 2e-3
+"""Closing of the jaws that tells the same, where no sensor feels the force. [m]"""
 
 
 class GripWatch:
@@ -15,15 +17,22 @@ class GripWatch:
 
     def __init__(self, chain: Chain) -> None:
         self._force = ForceSense(chain)
-        self._pressure: float | None = None
-        self._contactless = 0
+        self._measured: Measurement | None = None
+        self._held_at: float | None = None
+        self._missing = 0
 
     def update(self, measured: Measurement, dt: float) -> None:
         """Take in the newest measurement."""
         self._force.update(measured, dt)
-        self._pressure = measured.pressure.value
-        blind = self._force.now.value is None
-        self._contactless = 0 if blind or self.touching else self._contactless + 1
+        self._measured = measured
+        self._missing = self._missing + 1 if self._misses(measured) else 0
+
+    def hold(self) -> None:
+        """From now on there is a part to be lost."""
+        self._missing = 0
+        self._held_at = None
+        if self._measured is not None:
+            self._held_at = self._measured.opening.value
 
     @property
     def touching(self) -> bool:
@@ -31,19 +40,28 @@ class GripWatch:
         return self._force.touching
 
     @property
-    def lost(self) -> bool:
-        """Whether a part that was held is gone."""
-        return self._contactless >= LOST_SAMPLES
-
-    @property
     def interrupted(self) -> Grip:
         """Grip when a motion was cut short."""
         return Grip.HOLDING if self.touching else Grip.UNKNOWN
+
+    @property
+    def lost(self) -> bool:
+        """Whether the part that was held is gone."""
+        return self._missing >= LOST_SAMPLES
 
     def seen(self) -> Grip:
         """Grip as it looks, without knowing how it came about."""
         if self.touching:
             return Grip.HOLDING
-        if self._pressure is not None and self._pressure < SLACK_PRESSURE:
+        pressure = None if self._measured is None else self._measured.pressure.value
+        if pressure is not None and pressure < SLACK_PRESSURE:
             return Grip.RELEASED
         return Grip.UNKNOWN
+
+    def _misses(self, measured: Measurement) -> bool:
+        if self._force.measured:
+            return not self.touching
+        opening = measured.opening.value
+        if opening is None or self._held_at is None:
+            return False
+        return opening < self._held_at - LOST_TRAVEL

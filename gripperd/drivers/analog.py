@@ -46,6 +46,7 @@ class AnalogRig:
         self._output = output
         self._inputs = inputs
         self._register = output.module.register(output.channel)
+        self._count = 0
 
     async def read(self, now: float) -> Measurement:
         """Sample the commanded current and every sensor.
@@ -71,10 +72,12 @@ class AnalogRig:
         LinkError
             When no trustworthy confirmation came; it may have arrived or not.
         """
-        count = self._output.module.encode(current)
-        await self._bus.ask(
-            Write(self._output.unit, self._register, (count,)), urgent=urgent
-        )
+        self._count = self._output.module.encode(current)
+        await self._bus.ask(self._newest, urgent=urgent)
+
+    def _newest(self) -> Write:
+        """The last current asked for: a write that waited must not undo a later one."""
+        return Write(self._output.unit, self._register, (self._count,))
 
     async def _sensors(self) -> dict[str, Reading]:
         wiring = self._inputs

@@ -7,7 +7,7 @@ sent once; who wants to try again says so.
 
 import asyncio
 from collections import Counter, deque
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from typing import cast
@@ -85,6 +85,9 @@ class _Wire(asyncio.Protocol):
     def send(self, frame: bytes) -> "asyncio.Future[bytes]":
         """Write a request; the future is its reply."""
         assert self.transport is not None
+        if self.transport.is_closing():
+            message = "the peer has closed the connection"
+            raise LinkLost(message)
         if self._buffer:
             message = f"octets nobody asked for: {bytes(self._buffer[:32]).hex(' ')}"
             raise BadReply(message)
@@ -118,7 +121,7 @@ class Turns:
         except asyncio.CancelledError:
             if turn.done() and not turn.cancelled():
                 self.give()
-            else:
+            elif turn in queue:
                 queue.remove(turn)
             raise
 
@@ -145,14 +148,17 @@ class Bus:
         self._transaction = 0
 
     async def ask(
-        self, request: modbus.Request, *, urgent: bool = False
+        self,
+        request: modbus.Request | Callable[[], modbus.Request],
+        *,
+        urgent: bool = False,
     ) -> tuple[int, ...]:
         """Send one request, once, and return its checked reply.
 
         Parameters
         ----------
         request
-            What to read or write.
+            What to read or write; a function is asked when its turn has come.
         urgent
             Go before everything that waits, after the request in flight.
 
@@ -173,7 +179,7 @@ class Bus:
         """
         await self._turns.take(urgent=urgent)
         try:
-            return await self._exchange(request)
+            return await self._exchange(request() if callable(request) else request)
         finally:
             self._turns.give()
 

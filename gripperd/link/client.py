@@ -88,6 +88,9 @@ class Client:
         except BadReply:
             pass
         writer.close()
+        self._give_up()
+
+    def _give_up(self) -> None:
         for waiting in self._waiting.values():
             if not waiting.done():
                 waiting.set_exception(LinkLost(f"{self._peer} went away"))
@@ -100,3 +103,4 @@ class Client:
                 await self._reading
         if self._writer is not None:
             self._writer.close()
+        self._give_up()

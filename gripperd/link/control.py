@@ -139,9 +139,9 @@ async def _respond(request: Request, loop: Loop) -> object:
         case Stop():
             return await loop.stop()
         case Enable():
-            loop.gripper.enable()
+            loop.enable()
         case Disable():
-            loop.gripper.disable()
+            loop.disable()
         case _:
             pass
     return loop.state()

@@ -32,6 +32,7 @@ class Failed(msgspec.Struct, frozen=True):
     code: str = ""
     hints: tuple[str, ...] = ()
     key: str | None = None
+    exception_code: int | None = None
 
 
 class Answer(msgspec.Struct, frozen=True, array_like=True):
@@ -93,6 +94,8 @@ def failed(error: errors.GripperdError) -> Failed:
         return Failed(name, message, code=error.code, hints=error.hints)
     if isinstance(error, errors.InputError):
         return Failed(name, message, key=error.key)
+    if isinstance(error, errors.DeviceRefused):
+        return Failed(name, message, exception_code=error.exception_code)
     return Failed(name, message)
 
 
@@ -107,4 +110,8 @@ def raised(failed: Failed) -> errors.GripperdError:
     if kind in {errors.LinkLost, errors.ReplyTimeout, errors.BadReply}:
         lost: errors.GripperdError = kind(failed.message)
         return lost
+    if kind is errors.DeviceRefused and failed.exception_code is not None:
+        return errors.DeviceRefused(
+            failed.message, exception_code=failed.exception_code
+        )
     return errors.LinkError(failed.message)

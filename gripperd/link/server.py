@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from gripperd.errors import BadReply, GripperdError
+from gripperd.errors import BadReply, GripperdError, Refused
 from gripperd.link.frames import Answer, Ask, decode, encode, failed, frame, read_frame
 
 Respond = Callable[[msgspec.Raw], Awaitable[object]]
@@ -24,7 +24,7 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
 
     The socket is the user's own: whoever may open it may move the gripper.
     """
-    _clear(path)
+    _make_way(path)
     clients: set[asyncio.Task[None]] = set()
 
     async def connected(reader: StreamReader, writer: StreamWriter) -> None:
@@ -43,31 +43,55 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
         server = await asyncio.start_unix_server(connected, path)
     finally:
         os.umask(mask)
+    ours = _identity(path)
     try:
         yield
     finally:
         server.close()
         for client in tuple(clients):
             client.cancel()
-        _clear(path)
+        _clear(path, ours)
 
 
-def _clear(path: Path) -> None:
+def _make_way(path: Path) -> None:
     """Leave no socket of an earlier life, and a folder that is the user's alone."""
     path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    path.unlink(missing_ok=True)
+    if path.is_socket():
+        path.unlink()
+    elif path.exists():
+        message = f"{path} is in the way: it is no socket, so it is not removed"
+        raise Refused(message, code="path-taken")
+
+
+def _clear(path: Path, ours: tuple[int, int] | None) -> None:
+    if _identity(path) == ours:
+        path.unlink(missing_ok=True)
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    """Which socket stands at a path; a newer process may have put its own there."""
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 async def _converse(
     reader: StreamReader, writer: StreamWriter, respond: Respond
 ) -> None:
     async with asyncio.TaskGroup() as tasks:
-        while (body := await read_frame(reader)) is not None:
-            try:
-                ask = decode(body, Ask)
-            except BadReply:
-                break
+        while (ask := await _next(reader)) is not None:
             tasks.create_task(_answer(ask, writer, respond))
+
+
+async def _next(reader: StreamReader) -> Ask | None:
+    """The next request; None at the end, and after octets that are none of ours."""
+    try:
+        body = await read_frame(reader)
+        return None if body is None else decode(body, Ask)
+    except BadReply:
+        return None
 
 
 async def _answer(ask: Ask, writer: StreamWriter, respond: Respond) -> None:

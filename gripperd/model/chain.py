@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import hypot, isfinite
 from typing import TYPE_CHECKING, Self, TypeVar
 
@@ -239,10 +240,17 @@ class Chain:
     def _changes(
         self, current: float, pressed: PressedObject, direction: Direction
     ) -> Iterator[float]:
-        for path, sigma in self.tolerances.items():
-            more = self.varied(path, sigma).grip_on(current, pressed, direction)
-            less = self.varied(path, -sigma).grip_on(current, pressed, direction)
-            yield (more - less) / 2
+        for less, more in self._neighbours:
+            low = less.grip_on(current, pressed, direction)
+            yield (more.grip_on(current, pressed, direction) - low) / 2
+
+    @cached_property
+    def _neighbours(self) -> "tuple[tuple[Chain, Chain], ...]":
+        """The chain with each constant one sigma down, and up."""
+        return tuple(
+            (self.varied(path, -sigma), self.varied(path, sigma))
+            for path, sigma in self.tolerances.items()
+        )
 
     def check_fits(self, diameter: float) -> None:
         """Refuse an object that is wider than the open jaws.

@@ -185,7 +185,7 @@ def decode_request(frame: bytes) -> Request | Refusal:
     function = frame[7]
     if function not in {Table.HOLDING, Table.INPUT, 6, 16}:
         return Refusal.ILLEGAL_FUNCTION
-    if len(frame) < HEADER + 5:
+    if len(frame) < HEADER + 5 or (function != 16 and len(frame) != HEADER + 5):
         return Refusal.ILLEGAL_VALUE
     unit = frame[6]
     address = int.from_bytes(frame[8:10], "big")

@@ -2,6 +2,7 @@ import asyncio
 import shutil
 from collections.abc import Callable
 from contextlib import suppress
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -13,6 +14,9 @@ from gripperd.bench.rig import Rig
 from gripperd.bench.server import BenchServer
 from gripperd.drivers.bus import TcpAddress, open_bus
 from gripperd.protocol.modbus import Write, decode_reply, encode_request
+
+SOON = 10.0
+"""Longest wait for something that must happen; no test takes this long. [s]"""
 
 
 async def elsewhere(
@@ -135,12 +139,15 @@ async def test_requests_may_come_in_any_pieces(bench: BenchServer) -> None:
     reader, writer = await asyncio.open_connection(host, int(port))
     one, two = (Write(1, 0, (value,)) for value in (5000, 6000))
     stream = encode_request(one, 1) + encode_request(two, 2)
-    for cut in (stream[:3], stream[3:8], stream[8:20], stream[20:]):
-        writer.write(cut)
-        await writer.drain()
-        await asyncio.sleep(0.002)
-    assert decode_reply(one, 1, await reader.readexactly(12)) == (5000,)
-    assert decode_reply(two, 2, await reader.readexactly(12)) == (6000,)
+    for cuts in ((0, 24), (0, 3, 8, 20, 24)):
+        for start, end in pairwise(cuts):
+            writer.write(stream[start:end])
+            await writer.drain()
+            await asyncio.sleep(0.002)
+        async with asyncio.timeout(SOON):
+            replies = await reader.readexactly(24)
+        assert decode_reply(one, 1, replies[:12]) == (5000,)
+        assert decode_reply(two, 2, replies[12:]) == (6000,)
     writer.close()
     await writer.wait_closed()
 
@@ -155,7 +162,8 @@ async def test_who_speaks_no_modbus_is_hung_up_on_alone(
         await bus.up.wait()
         writer.write(b"GET / HTTP/1.1\r\n\r\n")
         with suppress(ConnectionResetError):
-            assert await reader.read() == b""
+            async with asyncio.timeout(SOON):
+                assert await reader.read() == b""
         assert await bus.ask(Write(1, 0, (4000,))) == (4000,)
         assert bus.statistics.connections == 1
     writer.close()

@@ -1,0 +1,35 @@
+# Everything needs only Python 3.11 or newer and make; the rest goes into .venv.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+
+.PHONY: run test bench lint clean
+
+run: $(VENV)/installed
+	$(BIN)/gripperd run
+
+test: $(VENV)/developing
+	$(BIN)/pytest
+
+bench: $(VENV)/developing
+	$(BIN)/python -m tests.benchmarks
+
+lint: $(VENV)/developing
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+clean:
+	rm -rf $(VENV) build dist reproduction
+
+$(VENV)/installed: pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(PIP) install --upgrade pip
+	$(PIP) install --editable '.[reproduce]'
+	touch $@
+
+# Dependency groups need the newer pip that the first stamp has installed.
+$(VENV)/developing: $(VENV)/installed
+	$(PIP) install --group dev
+	touch $@

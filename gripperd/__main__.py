@@ -1,0 +1,5 @@
+"""Lets ``python -m gripperd`` do what ``gripperd`` does."""
+
+from gripperd.cli import main
+
+main()

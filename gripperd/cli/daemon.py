@@ -1,0 +1,115 @@
+"""Commands that start the daemon or parts of it, and check its configuration."""
+
+import logging
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import structlog
+import typer
+from rich.console import Console
+
+from gripperd.cli.app import ConfigFile, app
+from gripperd.errors import InputError
+
+config_app = typer.Typer(help="Look at the configuration.", no_args_is_help=True)
+app.add_typer(config_app, name="config")
+
+Tcp = Annotated[
+    str | None,
+    typer.Option("--tcp", help="HOST:PORT to listen on, instead of the settings'."),
+]
+Bench = Annotated[
+    str | None,
+    typer.Option("--bench", help="HOST:PORT of the bench, instead of the settings'."),
+]
+
+Http = Annotated[
+    str | None,
+    typer.Option("--http", help="HOST:PORT to serve on, instead of the settings'."),
+]
+
+
+@app.command()
+def run(config: ConfigFile = None) -> None:
+    """Run the daemon: control, service and, without hardware, the bench."""
+    from gripperd.cli.run import run as run_daemon
+    from gripperd.config import load_settings
+
+    settings = load_settings(config)
+    _log_to_stderr()
+    raise typer.Exit(run_daemon(settings, Console(highlight=False, soft_wrap=True)))
+
+
+@app.command()
+def bench(config: ConfigFile = None, tcp: Tcp = None) -> None:
+    """Run the simulated rig alone: a Modbus TCP server with two analog modules."""
+    from gripperd.cli import processes
+    from gripperd.config import load_settings
+
+    settings = load_settings(config)
+    _log_to_stderr()
+    processes.run_process(processes.bench(settings, _host_and_port("--tcp", tcp)))
+
+
+@app.command()
+def control(config: ConfigFile = None, bench: Bench = None) -> None:
+    """Run the control process alone."""
+    from gripperd.cli import processes
+    from gripperd.config import load_settings
+
+    settings = load_settings(config)
+    _log_to_stderr()
+    processes.run_process(processes.control(settings, _host_and_port("--bench", bench)))
+
+
+@app.command()
+def service(config: ConfigFile = None, http: Http = None) -> None:
+    """Run the service process alone: REST in front of control."""
+    from gripperd.cli import serving
+    from gripperd.cli.processes import run_process
+    from gripperd.config import load_settings
+
+    settings = load_settings(config)
+    _log_to_stderr()
+    run_process(serving.service(settings, _host_and_port("--http", http)))
+
+
+@config_app.command()
+def check(
+    config: Annotated[
+        Path | None, typer.Argument(help="File to check; default as for run.")
+    ] = None,
+) -> None:
+    """Check a configuration with everything it refers to; exit 78 if unusable."""
+    from gripperd.config import load_settings
+
+    settings = load_settings(config)
+    typer.echo(f"{settings.source}: usable")
+    for name, gripper in settings.grippers.items():
+        typer.echo(f"  gripper {name}: model {gripper.chain.name}")
+    typer.echo(f"  profiles: {', '.join(settings.profiles)}")
+
+
+def _host_and_port(option: str, address: str | None) -> tuple[str, int] | None:
+    if address is None:
+        return None
+    host, _, port = address.rpartition(":")
+    if not host or not port.isdecimal() or int(port) > 65535:
+        message = f"{option} {address!r} is not HOST:PORT, such as 127.0.0.1:15020"
+        raise InputError(message, key=option)
+    return host, int(port)
+
+
+def _log_to_stderr() -> None:
+    """Plain lines; on a terminal in colour, without time stamps in the journal."""
+    on_terminal = sys.stderr.isatty()
+    structlog.configure(
+        processors=[
+            structlog.processors.add_log_level,
+            structlog.processors.TimeStamper(fmt="%H:%M:%S"),
+            structlog.dev.ConsoleRenderer(colors=on_terminal),
+        ],
+        wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
+        logger_factory=structlog.PrintLoggerFactory(sys.stderr),
+    )

@@ -1,0 +1,52 @@
+"""The readiness protocol of systemd, both ends.
+
+References
+----------
+.. [1] sd_notify(3): datagrams of ``NAME=value`` lines to ``$NOTIFY_SOCKET``.
+"""
+
+import os
+import socket
+from collections.abc import Mapping
+from pathlib import Path
+
+VARIABLE = "NOTIFY_SOCKET"
+
+
+def notify(**facts: str | int) -> None:
+    """Tell whoever started this process; nobody is told when nobody asked.
+
+    Parameters
+    ----------
+    facts
+        Such as ``READY=1`` or ``STATUS="holding"``.
+    """
+    address = os.environ.get(VARIABLE)
+    if not address:
+        return
+    # A leading @ stands for the abstract namespace.
+    if address.startswith("@"):
+        address = "\0" + address[1:]
+    message = "\n".join(f"{name}={value}" for name, value in facts.items())
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
+        sender.connect(address)
+        sender.sendall(message.encode())
+
+
+def listen(path: Path) -> socket.socket:
+    """Socket on which the processes started here report."""
+    path.unlink(missing_ok=True)
+    receiver = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    receiver.bind(str(path))
+    receiver.setblocking(False)
+    return receiver
+
+
+def parse(datagram: bytes) -> Mapping[str, str]:
+    r"""Facts in one datagram.
+
+    >>> parse(b"READY=1\nADDRESS=127.0.0.1:15020")["ADDRESS"]
+    '127.0.0.1:15020'
+    """
+    lines = (line.partition("=") for line in datagram.decode().splitlines())
+    return {name: value for name, _, value in lines}

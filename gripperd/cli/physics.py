@@ -1,0 +1,123 @@
+"""Commands that compute: no daemon, no hardware."""
+
+import json
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from gripperd import __version__
+from gripperd.cli.app import app
+from gripperd.errors import InputError
+from gripperd.units import KILO, MILLI
+
+if TYPE_CHECKING:
+    from gripperd.model import Regulator
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Model = Annotated[
+    Path | None,
+    typer.Option("--model", help="Model file; without one, the reference rig."),
+]
+
+
+@app.command()
+def predict(
+    diameter: Annotated[float, typer.Option(help="Size of the object. [mm]")],
+    current: Annotated[float | None, typer.Option(help="Valve current. [mA]")] = None,
+    force: Annotated[
+        float | None, typer.Option(help="Grip force per jaw, instead. [N]")
+    ] = None,
+    stiffness: Annotated[
+        float | None, typer.Option(help="Of the object; without, rigid. [N/mm]")
+    ] = None,
+    model: Model = None,
+    as_json: Json = False,
+) -> None:
+    """Predict the grip force at a current, or the current for a grip force."""
+    from gripperd.config import load_chain, reference_chain
+    from gripperd.model import PressedObject
+
+    if (current is None) == (force is None):
+        message = "give either --current in mA or --force in N"
+        raise InputError(message, key="--current")
+    chain = reference_chain() if model is None else load_chain(model)
+    pressed = PressedObject(_above_zero("--diameter", diameter, "mm") * MILLI)
+    if stiffness is not None:
+        stiff = _above_zero("--stiffness", stiffness, "N/mm") * KILO
+        pressed = PressedObject(pressed.diameter, stiff)
+    if force is not None:
+        wanted = _above_zero("--force", force, "N")
+        chain.check_fits(pressed.diameter)
+        amperes = chain.current_for(wanted, pressed)
+    else:
+        assert current is not None
+        amperes = _above_zero("--current", current, "mA") * MILLI
+    _check_valve(chain.regulator, amperes)
+    found = chain.predict(amperes, pressed)
+    facts = {
+        "model": chain.name,
+        "current_mA": round(found.current / MILLI, 4),
+        "diameter_mm": diameter,
+        "force_N": round(found.grip_force, 3),
+        "force_std_N": round(found.grip_std, 3),
+        "pressure_kPa": round(found.pressure / KILO, 3),
+        "opening_mm": round(found.opening / MILLI, 3),
+        "contraction": round(found.contraction, 5),
+        "muscle_force_N": round(found.muscle_force, 2),
+        "spring_force_N": round(found.spring_force, 2),
+        "reaches": found.reaches,
+        "extrapolated": found.extrapolated,
+    }
+    if as_json:
+        typer.echo(json.dumps(facts))
+        return
+    typer.echo(
+        f"{facts['force_N']:.1f} N per jaw, ± {facts['force_std_N']:.1f} N (1 sigma),"
+        f" on {diameter:g} mm at {facts['current_mA']:.2f} mA"
+        f" ({facts['pressure_kPa']:.1f} kPa)"
+    )
+    if not found.reaches:
+        typer.echo("the jaws do not reach the object at this current")
+    if found.extrapolated:
+        typer.echo("extrapolated: the muscle is not specified for this contraction")
+
+
+@app.command()
+def reproduce(
+    folder: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder to write.")
+    ] = Path("reproduction"),
+    model: Model = None,
+) -> None:
+    """Redo the paper: its equations, figures, table and claims, as a page."""
+    from gripperd.config import load_chain, reference_chain
+    from gripperd.reproduce import reproduce as redo
+
+    chain = reference_chain() if model is None else load_chain(model)
+    report = redo(chain, folder, version=__version__, made_at=datetime.now(UTC))
+    table = Table("claim of the paper", "verdict", "here", title=None)
+    for claim in report.claims:
+        table.add_row(claim.statement, claim.verdict, claim.finding)
+    Console().print(table)
+    typer.echo(f"wrote {folder / 'index.html'}")
+
+
+def _above_zero(name: str, value: float, unit: str) -> float:
+    if not 0 < value < float("inf"):
+        message = f"{name} {value:g} {unit} is not above 0 {unit} and finite"
+        raise InputError(message, key=name)
+    return value
+
+
+def _check_valve(regulator: "Regulator", current: float) -> None:
+    low, high = regulator.current_low, regulator.current_high
+    if not low <= current <= high:
+        message = (
+            f"{current / MILLI:.2f} mA is outside {low / MILLI:g} to"
+            f" {high / MILLI:g} mA, the span of the valve"
+        )
+        raise InputError(message, key="--current")

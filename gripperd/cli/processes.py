@@ -1,0 +1,183 @@
+"""The three processes of the program: bench, control, service.
+
+Each can be a systemd unit of its own; ``gripperd run`` starts and watches all of them.
+"""
+
+import asyncio
+import ctypes
+import os
+import random
+import signal
+import time
+import uuid
+from collections.abc import Coroutine
+from contextlib import AsyncExitStack
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import structlog
+import uvloop
+
+from gripperd.bench.modules import Modules
+from gripperd.bench.rig import Rig
+from gripperd.bench.sensors import Channel, Sensor, SensorSettings
+from gripperd.bench.server import serve_bench
+from gripperd.cli.notify import notify
+from gripperd.cli.supervisor import stop_requested
+from gripperd.config import BenchBus, GripperSettings, Settings
+from gripperd.control.gripper import Gripper
+from gripperd.control.loop import Loop
+from gripperd.drivers.analog import AnalogRig
+from gripperd.drivers.bus import Bus, TcpAddress, open_bus
+from gripperd.errors import ConfigError
+from gripperd.link.bench import BenchDesk
+from gripperd.link.control import ControlDesk
+from gripperd.link.server import serve
+
+REAL_TIME_PRIORITY = 10
+"""Above everything that is not real time, below the kernel's own threads."""
+ATTACH_WITHIN = 1.0
+"""How long readiness waits for the hardware; a daemon without it is ready too. [s]"""
+PR_SET_PDEATHSIG = 1
+"""prctl(2): signal to get when the parent dies."""
+
+log = structlog.get_logger()
+
+
+def run_process(main: Coroutine[Any, Any, None]) -> None:
+    """Run one process until it is asked to end, or its supervisor dies."""
+    if os.environ.get("GRIPPERD_SUPERVISED"):
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+
+    async def until_stopped() -> None:
+        work = asyncio.create_task(main)
+        stop = asyncio.create_task(stop_requested())
+        await asyncio.wait({work, stop}, return_when=asyncio.FIRST_COMPLETED)
+        if work.done():
+            work.result()
+        work.cancel()
+        await asyncio.gather(work, return_exceptions=True)
+
+    uvloop.run(until_stopped())
+
+
+def bench_socket(settings: Settings) -> Path:
+    """Where the bench answers the service."""
+    return settings.runtime_dir / "bench.sock"
+
+
+def control_socket(settings: Settings) -> Path:
+    """Where control answers the service."""
+    return settings.runtime_dir / "control.sock"
+
+
+def simulated(settings: Settings) -> GripperSettings | None:
+    """The gripper on the bench, if there is one."""
+    for gripper in settings.grippers.values():
+        if isinstance(gripper.bus, BenchBus):
+            return gripper
+    return None
+
+
+async def bench(settings: Settings, address: tuple[str, int] | None) -> None:
+    """Simulate the rig, on the wire."""
+    gripper = simulated(settings)
+    if gripper is None or gripper.input is None:
+        message = f"{settings.source}: no gripper with inputs is on the bench"
+        raise ConfigError(message)
+    rng = random.Random(settings.bench.seed)
+    rig = Rig(gripper.chain, rng, sensors=_sensors(gripper, settings.bench.noise))
+    modules = Modules(
+        rig,
+        (gripper.output.module, gripper.output.unit),
+        (gripper.input.module, gripper.input.unit),
+    )
+    host, port = address or (settings.bench.host, settings.bench.port)
+    async with serve_bench(modules, host, port) as server:
+        desk = BenchDesk(server, rig)
+        async with serve(bench_socket(settings), desk.respond):
+            log.info("bench listens", modbus_tcp=server.address)
+            notify(READY=1, ADDRESS=server.address)
+            await asyncio.Event().wait()
+
+
+async def control(settings: Settings, bench_address: tuple[str, int] | None) -> None:
+    """Control every gripper."""
+    real_time = _go_real_time()
+    loops: dict[str, Loop] = {}
+    async with AsyncExitStack() as open_things:
+        buses: dict[TcpAddress, Bus] = {}
+        for name, gripper in settings.grippers.items():
+            address = _address(gripper, settings, bench_address)
+            if address not in buses:
+                buses[address] = await open_things.enter_async_context(
+                    open_bus(address)
+                )
+            loops[name] = Loop(
+                Gripper(
+                    name,
+                    gripper.chain,
+                    auto_enable=gripper.auto_enable,
+                    identify=lambda: uuid.uuid4().hex,
+                ),
+                AnalogRig(buses[address], gripper.output, gripper.input),
+                period=1 / gripper.rate,
+            )
+        desk = ControlDesk(loops, real_time=real_time, started_at=time.time())
+        await open_things.enter_async_context(
+            serve(control_socket(settings), desk.respond)
+        )
+        async with asyncio.TaskGroup() as tasks:
+            for loop in loops.values():
+                tasks.create_task(loop.run())
+            await _attached(loops)
+            log.info("control runs", grippers=list(loops), real_time=real_time)
+            notify(READY=1)
+
+
+async def _attached(loops: dict[str, Loop]) -> None:
+    """Return when every gripper is attached, or has had its time."""
+    for _ in range(100):
+        if all(loop.gripper.attached for loop in loops.values()):
+            return
+        await asyncio.sleep(ATTACH_WITHIN / 100)
+
+
+def _address(
+    gripper: GripperSettings, settings: Settings, bench: tuple[str, int] | None
+) -> TcpAddress:
+    if isinstance(gripper.bus, TcpAddress):
+        return gripper.bus
+    host, port = bench or (settings.bench.host, settings.bench.port)
+    return TcpAddress(host=host, port=port)
+
+
+def _sensors(gripper: GripperSettings, noise: float) -> SensorSettings:
+    """Transmitters of the bench, matched to how the gripper reads them."""
+    settings = SensorSettings()
+    if gripper.input is None:
+        return settings
+    for channel in Channel:
+        wiring = gripper.input.sensors.get(channel)
+        if wiring is not None:
+            scale = wiring.scale
+            sensor = Sensor(
+                value_low=scale.value_low,
+                value_high=scale.value_high,
+                current_low=scale.current_low,
+                current_high=scale.current_high,
+                noise=noise,
+            )
+            settings = replace(settings, **{channel.value: sensor})
+    return settings
+
+
+def _go_real_time() -> bool:
+    """Ask for real-time priority; tell whether it was granted."""
+    try:
+        priority = os.sched_param(REAL_TIME_PRIORITY)
+        os.sched_setscheduler(0, os.SCHED_FIFO, priority)
+    except OSError:
+        return False
+    return True

@@ -1,0 +1,104 @@
+"""``gripperd run``: every process that the configuration needs, in order."""
+
+import asyncio
+import fcntl
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import uvloop
+from rich.console import Console
+
+from gripperd.cli.notify import notify
+from gripperd.cli.processes import simulated
+from gripperd.cli.supervisor import Child, StartFailed, stop_requested, supervise
+from gripperd.config import Settings
+from gripperd.errors import Refused
+
+SUPERVISED = "GRIPPERD_SUPERVISED"
+
+
+def run(settings: Settings, console: Console) -> int:
+    """Run until a signal ends it; the exit status."""
+    settings.runtime_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
+    os.environ[SUPERVISED] = "1"
+    with _alone(settings.runtime_dir):
+        return uvloop.run(_run(settings, console))
+
+
+async def _run(settings: Settings, console: Console) -> int:
+    children: list[Child] = []
+    stop = asyncio.create_task(stop_requested())
+    work = asyncio.create_task(_start_and_watch(settings, children, console))
+    try:
+        await asyncio.wait({stop, work}, return_when=asyncio.FIRST_COMPLETED)
+        if work.done():
+            return _status(work)
+        console.print(f"{stop.result()}: ending; the grip stays as it is")
+        notify(STOPPING=1)
+        return 0
+    finally:
+        work.cancel()
+        await asyncio.gather(work, return_exceptions=True)
+        # The service first, so that nobody gives a command to a dying control.
+        for child in reversed(children):
+            await child.end()
+
+
+async def _start_and_watch(
+    settings: Settings, children: list[Child], console: Console
+) -> None:
+    folder, common = settings.runtime_dir, ["--config", str(settings.source)]
+    bench_address: list[str] = []
+
+    async def start(name: str, *arguments: str) -> Child:
+        child = Child(name, [name, *common, *arguments], folder)
+        children.append(child)
+        await child.start()
+        return child
+
+    if simulated(settings) is not None:
+        bench = await start("bench")
+        bench_address = ["--bench", bench.facts["ADDRESS"]]
+        # What is started again must be found where it was, also on a chosen port.
+        bench.arguments += ["--tcp", bench.facts["ADDRESS"]]
+        console.print(
+            f"bench    Modbus TCP on {bench.facts['ADDRESS']}, simulated: no hardware"
+        )
+    await start("control", *bench_address)
+    console.print(f"control  {', '.join(settings.grippers)}")
+    service = await start("service")
+    url = service.facts["ADDRESS"]
+    service.arguments += ["--http", url.removeprefix("http://")]
+    console.print(f"service  {url}   try {url}/v1/grippers, {url}/docs")
+    notify(READY=1, STATUS=f"serving {url}", MAINPID=os.getpid())
+    await supervise(children)
+
+
+def _status(work: "asyncio.Task[None]") -> int:
+    error = work.exception()
+    if isinstance(error, BaseExceptionGroup):
+        error = error.exceptions[0]
+    if isinstance(error, StartFailed):
+        return error.status or 1
+    if error is not None:
+        raise error
+    return 0
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Hold the folder's lock, so that two daemons never share sockets or hardware."""
+    with (folder / "lock").open("a+") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            lock.seek(0)
+            message = f"gripperd runs already in {folder} (pid {lock.read().strip()})"
+            hints = ("stop it, or give this one another runtime_dir",)
+            raise Refused(message, code="already-running", hints=hints) from error
+        lock.truncate(0)
+        lock.write(str(os.getpid()))
+        lock.flush()
+        yield

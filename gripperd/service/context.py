@@ -1,0 +1,106 @@
+"""What the resources need, and how they get it."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from fastapi import Depends, Request
+
+from gripperd.config import GripperSettings, Settings
+from gripperd.config.complaint import did_you_mean
+from gripperd.control.snapshot import GripperState
+from gripperd.errors import InputError, NotFound, Refused
+from gripperd.link.client import Client
+from gripperd.link.control import ReadState
+from gripperd.service.library import ProfileLibrary
+from gripperd.service.shared import Shared
+from gripperd.service.state import StateDocument, state_document
+
+STATE_LASTS = 5e-3
+"""States are shared for half a period of the control loop. [s]"""
+STATE_WITHIN = 1.0
+"""Longest wait for a state; control answers in under a millisecond. [s]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A state, and the octets of its reply, made once for all who ask."""
+
+    document: StateDocument
+    json: bytes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Context:
+    """The rest of the daemon, as the service sees it."""
+
+    settings: Settings
+    control: Client
+    bench: Client | None
+    library: ProfileLibrary
+    states: Shared[Seen]
+    started_at: float
+    """Seconds since the epoch."""
+    version: str
+
+    def gripper(self, name: str) -> GripperSettings:
+        """Settings of the gripper that a path names.
+
+        Raises
+        ------
+        NotFound
+            With the names there are.
+        """
+        grippers = self.settings.grippers
+        if name not in grippers:
+            message = f"there is no gripper {name!r}; {did_you_mean(name, grippers)}"
+            raise NotFound(message, key="gripper")
+        return grippers[name]
+
+    def chosen_gripper(self, name: str | None) -> GripperSettings:
+        """Settings of the gripper that a body names; by default the first.
+
+        Raises
+        ------
+        InputError
+            With the names there are.
+        """
+        if name is None:
+            return next(iter(self.settings.grippers.values()))
+        try:
+            return self.gripper(name)
+        except NotFound as error:
+            raise InputError(str(error), key="gripper") from error
+
+    @property
+    def simulated(self) -> Client:
+        """The bench.
+
+        Raises
+        ------
+        Refused
+            There is none on hardware.
+        """
+        if self.bench is None:
+            message = "this daemon drives hardware; there is no bench to change"
+            raise Refused(message, code="not-simulated")
+        return self.bench
+
+
+def shared_states(settings: Settings, control: Client) -> Shared[Seen]:
+    """Make the one place that asks control for states."""
+
+    async def ask(name: str) -> Seen:
+        state = await control.ask(ReadState(name), GripperState, STATE_WITHIN)
+        document = state_document(state, settings.grippers[name])
+        return Seen(document, document.model_dump_json().encode())
+
+    return Shared(ask, STATE_LASTS)
+
+
+async def _context(request: Request) -> Context:
+    context: Context = request.app.state.context
+    return context
+
+
+Daemon = Annotated[Context, Depends(_context)]
+"""The context, as an argument of an operation."""

@@ -1,0 +1,198 @@
+"""What a request must be before anybody looks into it.
+
+A pure ASGI middleware. The host list is against DNS rebinding: a web page of a stranger
+can make its own name point to this machine, and its requests then look local. The
+origin check is against pages that simply send requests elsewhere; a browser says where
+they come from.
+"""
+
+import asyncio
+from collections.abc import Sequence
+from ipaddress import ip_address
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from gripperd.errors import Refused
+from gripperd.service.problems import ProblemResponse, problem
+
+LONGEST_BODY = 64 * 1024
+LONGEST_HEADERS = 16 * 1024
+"""[octets]"""
+BODY_TIME = 10.0
+"""Longest time for a body to arrive. [s]"""
+LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
+EVERYWHERE = frozenset({"0.0.0.0", "::"})
+"""A service that listens there may be called by any of its addresses."""
+PRODUCED = frozenset(
+    {"*/*", "application/*", "application/json", "application/problem+json"}
+)
+
+
+class Guard:
+    """Refuses requests that are too large, too slow, misdirected or no JSON.
+
+    Parameters
+    ----------
+    app
+        What answers the others.
+    host
+        Where the service listens; requests may call it that, or by a loopback name.
+    body_time
+        Longest time for a body to arrive. [s]
+    """
+
+    def __init__(self, app: ASGIApp, host: str, body_time: float = BODY_TIME) -> None:
+        self._app = app
+        self._hosts = LOOPBACK | {host.lower()}
+        self._everywhere = host in EVERYWHERE
+        self._body_time = body_time
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer one request, or let it pass with its body read."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        send = _hardened(send)
+        headers = Headers(scope=scope)
+        try:
+            self._check(scope, headers)
+            body = await self._body(headers, receive)
+        except Refused as refused:
+            found = problem(
+                refused.code,
+                str(refused),
+                instance=scope["path"],
+                hints=refused.hints,
+            )
+            await ProblemResponse(found)(scope, receive, send)
+            return
+        await self._app(scope, _replayed(body, receive), send)
+
+    def _check(self, scope: Scope, headers: Headers) -> None:
+        size = sum(len(name) + len(value) for name, value in headers.raw)
+        if size > LONGEST_HEADERS:
+            detail = f"{size} octets of headers; at most {LONGEST_HEADERS} are read"
+            raise Refused(detail, code="headers-too-large")
+        self._check_host(headers.getlist("host"))
+        self._check_origin(headers.get("origin"))
+        if scope["path"].startswith("/v1"):
+            _check_accept(headers.getlist("accept"))
+
+    def _check_host(self, hosts: Sequence[str]) -> None:
+        if len(hosts) != 1:
+            detail = f"{len(hosts)} Host headers; there must be one"
+            raise Refused(detail, code="bad-request")
+        if not self._own(_name_of(f"//{hosts[0]}")):
+            detail = f"this service is not called {hosts[0][:100]!r}"
+            hints = (f"it is called: {', '.join(sorted(self._hosts))}",)
+            raise Refused(detail, code="misdirected", hints=hints)
+
+    def _check_origin(self, origin: str | None) -> None:
+        if origin is not None and not self._own(_name_of(origin)):
+            detail = f"a page from {origin[:100]!r} may not talk to this service"
+            raise Refused(detail, code="foreign-origin")
+
+    def _own(self, name: str | None) -> bool:
+        """Whether a name means this service; an address cannot be rebound."""
+        return name in self._hosts or (self._everywhere and _is_address(name))
+
+    async def _body(self, headers: Headers, receive: Receive) -> bytes:
+        length = headers.get("content-length", "")
+        if length.isdecimal() and int(length) > LONGEST_BODY:
+            raise _too_large(f"has {length}")
+        if length in {"", "0"} and "transfer-encoding" not in headers:
+            return b""
+        try:
+            async with asyncio.timeout(self._body_time):
+                body = await _read(receive)
+        except TimeoutError:
+            detail = f"the body was not complete within {self._body_time:g} s"
+            raise Refused(detail, code="body-too-slow") from None
+        if body:
+            _check_json(headers)
+        return body
+
+
+def _name_of(url: str) -> str | None:
+    try:
+        return urlsplit(url).hostname
+    except ValueError:
+        return None
+
+
+def _is_address(name: str | None) -> bool:
+    try:
+        return name is not None and bool(ip_address(name))
+    except ValueError:
+        return False
+
+
+def _check_accept(accepts: Sequence[str]) -> None:
+    ranges = [
+        part.partition(";")[0].strip().lower()
+        for accept in accepts
+        for part in accept.split(",")
+    ]
+    if ranges and PRODUCED.isdisjoint(ranges):
+        detail = f"{', '.join(ranges)[:100]} is not what there is: application/json"
+        raise Refused(detail, code="not-acceptable")
+
+
+def _check_json(headers: Headers) -> None:
+    kind = headers.get("content-type", "").partition(";")[0].strip().lower()
+    if kind != "application/json" and not (
+        kind.startswith("application/") and kind.endswith("+json")
+    ):
+        detail = f"the body is {kind[:100] or 'of no stated type'}, not JSON"
+        hints = ("send it with the header Content-Type: application/json",)
+        raise Refused(detail, code="unsupported-media-type", hints=hints)
+    coding = headers.get("content-encoding", "identity").lower()
+    if coding != "identity":
+        detail = f"a body with the content coding {coding[:100]!r} is not read"
+        raise Refused(detail, code="unsupported-media-type")
+
+
+def _too_large(size: str) -> Refused:
+    detail = f"a body may have up to {LONGEST_BODY} octets; this one {size}"
+    return Refused(detail, code="body-too-large")
+
+
+async def _read(receive: Receive) -> bytes:
+    body = bytearray()
+    more = True
+    while more:
+        message = await receive()
+        body += message.get("body", b"")
+        more = message.get("more_body", False)
+        if len(body) > LONGEST_BODY:
+            raise _too_large(f"has {len(body)} or more")
+    return bytes(body)
+
+
+def _replayed(body: bytes, receive: Receive) -> Receive:
+    """Give the body that was read, then what really comes."""
+    given = False
+
+    async def replay() -> Message:
+        nonlocal given
+        if given:
+            return await receive()
+        given = True
+        return {"type": "http.request", "body": body, "more_body": False}
+
+    return replay
+
+
+def _hardened(send: Send) -> Send:
+    """Tell browsers not to guess types, and nobody to keep a state for later."""
+
+    async def harden(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            headers = MutableHeaders(scope=message)
+            headers["x-content-type-options"] = "nosniff"
+            headers.setdefault("cache-control", "no-store")
+        await send(message)
+
+    return harden

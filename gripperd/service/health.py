@@ -1,0 +1,122 @@
+"""Whether the daemon is well, and what one has to know about it."""
+
+from collections.abc import Iterator, Mapping
+from datetime import datetime
+from typing import Literal
+
+from fastapi import Request
+from pydantic import Field
+from starlette.responses import Response
+
+from gripperd.config import FailMode
+from gripperd.control.states import Machine
+from gripperd.errors import LinkError
+from gripperd.link.control import Overview, ReadOverview
+from gripperd.service.body import router
+from gripperd.service.context import Context, Daemon
+from gripperd.service.problems import ProblemResponse, problem
+from gripperd.service.rendering import Document, timestamp
+
+OVERVIEW_WITHIN = 1.0
+"""[s]"""
+NO_SAFETY_FUNCTION = (
+    "gripperd is not a safety function: protect people by other means, such as an"
+    " enable input on the valve's supply"
+)
+NO_WATCHDOG = (
+    "{name}: the output module keeps its last current when this host dies; it has no"
+    " watchdog"
+)
+FAILS_OPEN = "{name}: without power or air the muscle vents and the object drops"
+NO_REAL_TIME = "the control loop runs without real-time priority; see overruns"
+VOLATILE = "profiles that users save are lost when the service restarts"
+
+routes = router("health")
+
+
+class Health(Document):
+    """Well; anything else is a problem document."""
+
+    status: Literal["live", "ready"]
+
+
+class About(Document):
+    """The daemon and what it drives."""
+
+    name: Literal["gripperd"] = "gripperd"
+    version: str
+    mode: Literal["simulated", "hardware"]
+    started_at: datetime = Field(description="Start of the service.")
+    models: Mapping[str, str] = Field(description="Name of each gripper's model.")
+    fail_modes: Mapping[str, FailMode] = Field(
+        description="What happens to each gripper without power or air."
+    )
+    control: str = Field(description="`up`, or why it cannot be asked.")
+    control_started_at: datetime | None
+    real_time: bool | None = Field(
+        description="The control loop has real-time priority; null while unknown."
+    )
+    overruns: int | None = Field(description="Periods of control that took too long.")
+    warnings: tuple[str, ...]
+
+
+@routes.get("/health/live")
+async def live() -> Health:
+    """The service answers."""
+    return Health(status="live")
+
+
+@routes.get("/health/ready", response_model=Health)
+async def ready(request: Request, daemon: Daemon) -> Health | Response:
+    """Control answers and every gripper has its link; else 503 with the reasons."""
+    found = [await _reason(daemon, name) for name in daemon.settings.grippers]
+    reasons = [reason for reason in found if reason]
+    if not reasons:
+        return Health(status="ready")
+    detail = "; ".join(dict.fromkeys(reasons))
+    return ProblemResponse(problem("not-ready", detail, instance=request.url.path))
+
+
+async def _reason(daemon: Context, name: str) -> str | None:
+    """Why a gripper is not ready."""
+    try:
+        state = (await daemon.states.get(name)).document
+    except LinkError as error:
+        return str(error)
+    if state.machine in {Machine.OFFLINE, Machine.ATTACHING}:
+        return f"{name} is {state.machine}: {state.link}"
+    return None
+
+
+@routes.get("/info")
+async def info(daemon: Daemon) -> About:
+    """Version, mode, models, and what to be warned of."""
+    try:
+        overview = await daemon.control.ask(ReadOverview(), Overview, OVERVIEW_WITHIN)
+        control = "up"
+    except LinkError as error:
+        overview, control = None, str(error)
+    grippers = daemon.settings.grippers
+    return About(
+        version=daemon.version,
+        mode="hardware" if daemon.bench is None else "simulated",
+        started_at=timestamp(daemon.started_at),
+        models={name: each.chain.name for name, each in grippers.items()},
+        fail_modes={name: each.fail_mode for name, each in grippers.items()},
+        control=control,
+        control_started_at=timestamp(overview.started_at) if overview else None,
+        real_time=overview.real_time if overview else None,
+        overruns=overview.overruns if overview else None,
+        warnings=tuple(_warnings(daemon, overview)),
+    )
+
+
+def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
+    yield NO_SAFETY_FUNCTION
+    for name, gripper in daemon.settings.grippers.items():
+        yield NO_WATCHDOG.format(name=name)
+        if gripper.fail_mode is FailMode.VENT:
+            yield FAILS_OPEN.format(name=name)
+    if overview is not None and not overview.real_time:
+        yield NO_REAL_TIME
+    yield VOLATILE

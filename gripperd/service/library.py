@@ -1,0 +1,104 @@
+"""The profiles: shipped originals, and what users made of them."""
+
+import hashlib
+from collections.abc import Mapping
+
+import msgspec
+
+from gripperd.config.complaint import did_you_mean
+from gripperd.control.profile import Profile
+from gripperd.errors import NotFound, Refused
+
+
+class ProfileLibrary:
+    """Profiles by name; the originals cannot be changed.
+
+    Users' profiles live as long as this object. Versions of a name are never used
+    twice, so a version says which limits a grasp went by.
+
+    Parameters
+    ----------
+    originals
+        What came with the settings.
+    """
+
+    def __init__(self, originals: Mapping[str, Profile]) -> None:
+        self._originals = originals
+        self._own: dict[str, Profile] = {}
+        self._versions: dict[str, int] = {}
+
+    def all(self) -> list[Profile]:
+        """Every profile, the originals first."""
+        return [*self._originals.values(), *self._own.values()]
+
+    def get(self, name: str) -> Profile:
+        """One profile.
+
+        Raises
+        ------
+        NotFound
+            With the name that was probably meant.
+        """
+        found = self._originals.get(name) or self._own.get(name)
+        if found is None:
+            known = [*self._originals, *self._own]
+            message = f"there is no profile {name!r}; {did_you_mean(name, known)}"
+            raise NotFound(message, key="profile")
+        return found
+
+    def read_only(self, name: str) -> bool:
+        """Whether it is an original."""
+        return name in self._originals
+
+    def __contains__(self, name: str) -> bool:
+        """Whether there is a profile of that name."""
+        return name in self._originals or name in self._own
+
+    def next_version(self, name: str) -> int:
+        """Version that the next saved profile of that name gets."""
+        return self._versions.get(name, 0) + 1
+
+    def save(self, profile: Profile) -> None:
+        """Keep a profile, in place of the one of the same name.
+
+        Raises
+        ------
+        Refused
+            The name is that of an original.
+        """
+        self.check_changeable(profile.name)
+        self._own[profile.name] = profile
+        self._versions[profile.name] = profile.version
+
+    def remove(self, name: str) -> None:
+        """Forget a profile.
+
+        Raises
+        ------
+        NotFound
+            There is none.
+        Refused
+            It is an original.
+        """
+        self.get(name)
+        self.check_changeable(name)
+        del self._own[name]
+
+    def check_changeable(self, name: str) -> None:
+        """Refuse to change an original.
+
+        Raises
+        ------
+        Refused
+            It is one.
+        """
+        if self.read_only(name):
+            message = f"the profile {name} came with the settings and stays as it is"
+            hints = ("POST /v1/profiles a copy under another name",)
+            raise Refused(message, code="read-only", hints=hints)
+
+
+def tag_of(profile: Profile) -> str:
+    """Strong entity tag (RFC 9110, 8.8.3): a digest of everything in it."""
+    digest = hashlib.sha256(msgspec.json.encode(profile)).hexdigest()
+    return f'"{profile.version}-{digest[:16]}"'

@@ -1,0 +1,115 @@
+"""The web server: one process, one socket, no surprises."""
+
+import asyncio
+import errno
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import uvicorn
+from starlette.types import ASGIApp
+
+from gripperd.errors import ConfigError, Refused
+
+GRACE = 2
+"""How long requests in flight may take when the server ends. [s]"""
+
+
+class _Server(uvicorn.Server):
+    """Tells when it listens, and leaves signals to the owner of the process."""
+
+    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._on_ready = on_ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        self._on_ready()
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        yield
+
+
+async def serve(
+    app: ASGIApp, host: str, port: int, on_ready: Callable[[str], None]
+) -> None:
+    """Serve until cancelled; requests in flight may end.
+
+    Parameters
+    ----------
+    app
+        What answers.
+    host, port
+        Where to listen; port 0 takes a free one.
+    on_ready
+        Called with the URL once connections are accepted.
+
+    Raises
+    ------
+    Refused
+        When another program listens there.
+    ConfigError
+        When nobody can listen there.
+    """
+    listening = await _bound(host, port)
+    url = _url(listening)
+    config = uvicorn.Config(
+        app,
+        http="httptools",
+        ws="none",
+        lifespan="off",
+        log_config=None,
+        access_log=False,
+        proxy_headers=False,
+        server_header=False,
+        timeout_graceful_shutdown=GRACE,
+    )
+    server = _Server(config, lambda: on_ready(url))
+    serving = asyncio.create_task(server.serve([listening]))
+    try:
+        await asyncio.shield(serving)
+    except asyncio.CancelledError:
+        server.should_exit = True
+        await serving
+        raise
+
+
+async def _bound(host: str, port: int) -> socket.socket:
+    try:
+        loop = asyncio.get_running_loop()
+        found = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+        return _listening(*found[0][:3], address=found[0][4])
+    except OSError as error:
+        where = f"http.host = {host}, http.port = {port}"
+        if error.errno == errno.EADDRINUSE:
+            # Not the configuration's fault: the other program may go away.
+            message = f"{where}: another program listens there"
+            raise Refused(message, code="port-taken") from error
+        message = f"{where}: cannot listen there: {error.strerror}"
+        raise ConfigError(message) from error
+
+
+def _listening(
+    family: int,
+    kind: int,
+    protocol: int,
+    *,
+    address: tuple[Any, ...],
+) -> socket.socket:
+    # With its protocol named, the event loop knows to switch off Nagle's delay.
+    made = socket.socket(family, kind, protocol)
+    try:
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.bind(address)
+        made.listen()
+    except OSError:
+        made.close()
+        raise
+    return made
+
+
+def _url(listening: socket.socket) -> str:
+    host, port = listening.getsockname()[:2]
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"

@@ -1,0 +1,125 @@
+"""The state of a gripper as a document; never an old value as if it were new."""
+
+from pydantic import Field
+
+from gripperd.config import FailMode, GripperSettings
+from gripperd.control.snapshot import GripperState
+from gripperd.control.states import Event, Grip, Machine
+from gripperd.errors import DomainError
+from gripperd.model import Chain, PressedObject
+from gripperd.service.rendering import Document, known, optional, to
+from gripperd.signals import Measurement, Quality, Reading
+from gripperd.units import MILLI
+
+# ruff: noqa: N815  (names carry units, and units have capitals)
+
+STALE_AFTER = 0.5
+"""A measurement that is older is not repeated. [s]"""
+
+
+class Measured(Document):
+    """A value with its credentials; its unit is in the key it stands under."""
+
+    value: float | None = Field(description="Null unless there is one to believe.")
+    quality: Quality
+    age_ms: float | None = Field(description="Null when never measured.")
+    cause: str | None = optional("Why the quality is not good.")
+
+
+class MeasuredValues(Document):
+    """Every channel, sampled together."""
+
+    current_mA: Measured = Field(description="As the output module says it is.")
+    pressure_kPa: Measured = Field(description="Gauge, in the muscle.")
+    opening_mm: Measured
+    force_N: Measured = Field(description="Grip force per jaw.")
+
+
+class PresentPrediction(Document):
+    """What the model says about the measured current and opening."""
+
+    force_N: float = Field(description="Grip force per jaw while closing.")
+    std_N: float = Field(description="Standard deviation, from the tolerances.")
+    current_mA: float
+    opening_mm: float
+
+
+class StateDocument(Document):
+    """Everything about a gripper at one moment."""
+
+    name: str
+    machine: Machine
+    grip: Grip
+    available_transitions: tuple[Event, ...]
+    link: str = Field(description="`up`, or why there is none.")
+    holding: str | None = Field(description="Profile of what is held.")
+    command: str | None = Field(description="Id of the command that runs.")
+    current_mA: float | None = Field(description="Commanded; null while unknown.")
+    adopted: bool = Field(description="The current was found, not commanded.")
+    measured: MeasuredValues
+    prediction: PresentPrediction | None = Field(
+        description="Null unless current and opening are known."
+    )
+    fail_mode: FailMode = Field(description="What happens without power or air.")
+    model: str
+
+
+def state_document(state: GripperState, settings: GripperSettings) -> StateDocument:
+    """Describe a gripper for the outside."""
+    fresh = state.age is not None and state.age <= STALE_AFTER
+    return StateDocument(
+        name=state.name,
+        machine=state.machine,
+        grip=state.grip,
+        available_transitions=state.available_transitions,
+        link=state.link,
+        holding=state.holding,
+        command=state.command,
+        current_mA=known("mA", state.current),
+        adopted=state.adopted,
+        measured=MeasuredValues(
+            current_mA=_measured("current", "mA", state),
+            pressure_kPa=_measured("pressure", "kPa", state),
+            opening_mm=_measured("opening", "mm", state),
+            force_N=_measured("grip", "N", state),
+        ),
+        prediction=_predicted(state.measured, settings.chain) if fresh else None,
+        fail_mode=settings.fail_mode,
+        model=settings.chain.name,
+    )
+
+
+def _measured(channel: str, unit: str, state: GripperState) -> Measured:
+    if state.measured is None or state.age is None:
+        cause = f"never measured: {state.link}"
+        return Measured(value=None, quality=Quality.STALE, age_ms=None, cause=cause)
+    reading: Reading = getattr(state.measured, channel)
+    age = round(state.age / MILLI, 1)
+    if state.age > STALE_AFTER and reading.quality is not Quality.ABSENT:
+        cause = f"not measured for {state.age:.1f} s: {state.link}"
+        return Measured(value=None, quality=Quality.STALE, age_ms=age, cause=cause)
+    return Measured(
+        value=known(unit, reading.value),
+        quality=reading.quality,
+        age_ms=age,
+        cause=reading.cause or None,
+    )
+
+
+def _predicted(measured: Measurement | None, chain: Chain) -> PresentPrediction | None:
+    if measured is None:
+        return None
+    current, opening = measured.current.value, measured.opening.value
+    if current is None or opening is None:
+        return None
+    try:
+        force = float(chain.grip_force(current, opening))
+        std = chain.std(current, PressedObject(opening))
+    except DomainError:
+        return None
+    return PresentPrediction(
+        force_N=to("N", max(force, 0.0)),
+        std_N=to("N", std),
+        current_mA=to("mA", current),
+        opening_mm=to("mm", opening),
+    )

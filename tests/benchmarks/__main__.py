@@ -1,0 +1,22 @@
+"""Print every benchmark: ``make bench``, or ``make bench ONLY=physics``.
+
+Each figure stands beside its yardstick, measured in the same run on the same machine:
+ratios count, absolute times do not.
+"""
+
+import sys
+
+from rich.console import Console
+
+from tests.benchmarks import bus, latency, physics, plant
+
+CHAPTERS = {"physics": physics, "plant": plant, "bus": bus, "latency": latency}
+
+
+def main() -> None:
+    console = Console(width=100)
+    for name in sys.argv[1:] or CHAPTERS:
+        console.print(CHAPTERS[name].table())
+
+
+main()

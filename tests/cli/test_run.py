@@ -1,0 +1,141 @@
+"""The daemon as a service manager and a kill signal see it."""
+
+import os
+import signal
+import socket
+import stat
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import httpx
+import pytest
+
+from tests.daemon import (
+    Daemon,
+    children,
+    found,
+    gripperd,
+    running,
+    running_daemon,
+    settings_file,
+)
+
+
+def until(condition: Callable[[], bool], patience: float = 20.0) -> None:
+    """Wait for something that is bound to happen."""
+    end = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.02)
+
+
+def answers(url: str) -> bool:
+    try:
+        return httpx.get(f"{url}/v1/health/ready").is_success
+    except httpx.TransportError:
+        return False
+
+
+def hold_an_egg(daemon: Daemon) -> float:
+    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=60) as http:
+        http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()
+        body = {"type": "grasp", "profile": "raw_egg"}
+        done = http.post(
+            "/grippers/g0/commands", json=body, headers={"Prefer": "wait=30"}
+        ).json()
+    assert done["status"] == "succeeded"
+    return float(done["result"]["force_N"])
+
+
+def true_force(daemon: Daemon) -> float:
+    return float(httpx.get(f"{daemon.url}/v1/bench").json()["force_N"])
+
+
+def test_readiness_is_told_when_the_interface_answers_and_not_before(
+    tmp_path: Path,
+) -> None:
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+        manager.bind(str(tmp_path / "notify"))
+        manager.settimeout(60)
+        arguments = ("run", "--config", str(settings_file(tmp_path)))
+        with running(*arguments, NOTIFY_SOCKET=str(tmp_path / "notify")) as process:
+            told = manager.recv(4096).decode()
+            assert "READY=1" in told.splitlines()
+            assert process.stdout is not None
+            (url,) = found(process.stdout, r"(http://\S+)")
+            assert answers(url)
+            state = httpx.get(f"{url}/v1/grippers/g0").json()
+            assert state["machine"] == "ready"
+
+
+def test_the_service_is_killed_and_the_grip_does_not_notice(tmp_path: Path) -> None:
+    with running_daemon(tmp_path) as daemon:
+        held = hold_an_egg(daemon)
+        os.kill(children(daemon.process)["service"], signal.SIGKILL)
+        until(lambda: not answers(daemon.url))
+        until(lambda: answers(daemon.url))
+        assert true_force(daemon) == pytest.approx(held, rel=0.05)
+        state = httpx.get(f"{daemon.url}/v1/grippers/g0").json()
+        assert (state["grip"], state["holding"]) == ("holding", "raw_egg")
+
+
+def test_control_is_killed_and_adopts_what_it_held(tmp_path: Path) -> None:
+    with running_daemon(tmp_path) as daemon:
+        held = hold_an_egg(daemon)
+        written = httpx.get(f"{daemon.url}/v1/bench").json()["current_mA"]
+        first = children(daemon.process)["control"]
+        os.kill(first, signal.SIGKILL)
+        until(lambda: children(daemon.process).get("control", first) != first)
+        until(lambda: answers(daemon.url))
+        state = httpx.get(f"{daemon.url}/v1/grippers/g0").json()
+        assert (state["grip"], state["adopted"]) == ("holding", True)
+        assert httpx.get(f"{daemon.url}/v1/bench").json()["current_mA"] == written
+        assert true_force(daemon) == pytest.approx(held, rel=0.05)
+
+
+def test_the_children_end_with_their_supervisor(tmp_path: Path) -> None:
+    with running_daemon(tmp_path) as daemon:
+        pids = children(daemon.process).values()
+        daemon.process.kill()
+        daemon.process.wait(10)
+        until(lambda: not any(Path(f"/proc/{pid}/task").exists() for pid in pids))
+
+
+def test_a_second_daemon_in_the_same_place_is_refused(tmp_path: Path) -> None:
+    with running_daemon(tmp_path) as daemon:
+        second = gripperd("run", "--config", str(tmp_path / "gripperd.yaml"))
+        assert second.returncode == 1
+        assert f"runs already in {tmp_path / 'run'}" in second.stderr
+        assert str(daemon.process.pid) in second.stderr
+        assert answers(daemon.url)
+
+
+def test_a_port_that_is_taken_is_one_clear_line(tmp_path: Path) -> None:
+    settings = settings_file(tmp_path)
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        text = settings.read_text().replace("port: 0", f"port: {port}")
+        settings.write_text(text)
+        ended = gripperd("run", "--config", str(settings))
+    assert ended.returncode == 1
+    assert f"http.port = {port}: another program listens there" in ended.stderr
+    assert "Traceback" not in ended.stderr
+
+
+def test_only_the_user_may_speak_to_control(tmp_path: Path) -> None:
+    with running_daemon(tmp_path):
+        mode = (tmp_path / "run" / "control.sock").stat().st_mode
+        assert stat.S_IMODE(mode) == 0o600
+        assert stat.S_IMODE((tmp_path / "run").stat().st_mode) == 0o700
+
+
+def test_an_unusable_configuration_ends_with_78(tmp_path: Path) -> None:
+    settings = settings_file(tmp_path)
+    settings.write_text(settings.read_text().replace("rate_Hz: 100", "rate_Hz: 5000"))
+    for command in (("run", "--config"), ("config", "check")):
+        ended = gripperd(*command, str(settings))
+        assert ended.returncode == 78
+        assert ended.stderr == (
+            f"error: {settings}:31: grippers.g0.rate_Hz: 5000 Hz is above 500 Hz\n"
+        )

@@ -1,0 +1,126 @@
+from collections.abc import Mapping
+
+import pytest
+
+from gripperd.bench.faults import HEALTHY, BenchFaults
+from gripperd.bench.sensors import Channel
+from gripperd.control.command import Outcome
+from gripperd.control.profile import Mode, Profile
+from gripperd.signals import Quality
+
+from .stage import Stage, grasped
+
+Profiles = Mapping[str, Profile]
+BLIND = frozenset(Channel)
+SHORT_OF_AIR = BenchFaults(supply_pressure=150e3)
+
+
+def test_a_force_the_air_cannot_give_is_not_reached(
+    stage: Stage, profiles: Profiles
+) -> None:
+    result = grasped(stage, profiles["apple"], Mode.FORCE, SHORT_OF_AIR)
+    assert result.outcome is Outcome.FORCE_NOT_REACHED
+    assert result.force == pytest.approx(12.1, abs=0.3)
+
+
+def test_a_grip_under_the_slip_limit_is_not_held(
+    stage: Stage, profiles: Profiles
+) -> None:
+    # 170 kPa give the egg 1.2 N; it needs 1.07 N, and 1.61 N with its margin.
+    short = BenchFaults(supply_pressure=170e3)
+    result = grasped(stage, profiles["raw_egg"], Mode.CURRENT, short)
+    assert result.outcome is Outcome.FORCE_NOT_REACHED
+
+
+@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("offset", [-20e3, 0.0, 20e3, 60e3, 100e3])
+def test_the_egg_never_feels_its_damage_force(
+    stage: Stage, profiles: Profiles, mode: Mode, offset: float
+) -> None:
+    egg = profiles["raw_egg"]
+    grasped(stage, egg, mode, BenchFaults(valve_offset=offset))
+    stage.pass_time(1.0)
+    assert stage.peak() < egg.damage_force
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_a_grip_that_was_cut_short_is_not_dropped(
+    stage: Stage, profiles: Profiles, mode: Mode
+) -> None:
+    egg = profiles["raw_egg"]
+    result = grasped(stage, egg, mode, BenchFaults(valve_offset=60e3))
+    assert result.current < stage.writes[-2][1]
+    stage.pass_time(1.0)
+    assert stage.rig.plant.grip > egg.slip_force * egg.slip_margin
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_a_grip_that_was_cut_short_is_eased_to_its_margin(
+    stage: Stage, profiles: Profiles, mode: Mode
+) -> None:
+    egg = profiles["raw_egg"]
+    grasped(stage, egg, mode, BenchFaults(valve_offset=60e3))
+    stage.pass_time(1.0)
+    safe = egg.damage_force / egg.crush_margin
+    assert stage.rig.plant.grip == pytest.approx(safe, rel=0.05)
+
+
+@pytest.mark.parametrize("mode", Mode)
+@pytest.mark.parametrize("name", ["apple", "raw_egg"])
+def test_without_its_force_sensor_the_model_stands_in(
+    stage: Stage, profiles: Profiles, name: str, mode: Mode
+) -> None:
+    faults = BenchFaults(broken=frozenset({Channel.GRIP}))
+    result = grasped(stage, profiles[name], mode, faults)
+    assert result.outcome is Outcome.HELD
+    assert result.force_quality is Quality.SUBSTITUTED
+    assert result.force == pytest.approx(stage.rig.plant.grip, rel=0.03)
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_without_an_opening_a_force_is_held_but_no_size_told(
+    stage: Stage, profiles: Profiles, mode: Mode
+) -> None:
+    faults = BenchFaults(broken=frozenset({Channel.OPENING}))
+    result = grasped(stage, profiles["apple"], mode, faults)
+    assert result.outcome is Outcome.HELD
+    assert result.size is result.opening is result.predicted_force is None
+    assert result.force == pytest.approx(stage.rig.plant.grip, rel=0.02)
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_blind_it_goes_where_the_model_says(
+    stage: Stage, profiles: Profiles, mode: Mode
+) -> None:
+    egg = profiles["raw_egg"]
+    result = grasped(stage, egg, mode, BenchFaults(broken=BLIND))
+    assert result.force is result.slip_margin is result.crush_margin is None
+    expected = egg.force if mode is Mode.FORCE else 22.3
+    assert stage.rig.plant.grip == pytest.approx(expected, rel=0.02)
+
+
+def test_air_that_comes_back_does_not_crush_what_is_held(
+    stage: Stage, profiles: Profiles
+) -> None:
+    grasped(stage, profiles["apple"], Mode.FORCE, SHORT_OF_AIR)
+    stage.rig.plant.faults = HEALTHY
+    stage.pass_time(1.0)
+    assert stage.peak() < profiles["apple"].damage_force
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_jaws_that_never_closed_do_not_say_there_is_no_object(
+    stage: Stage, profiles: Profiles, mode: Mode
+) -> None:
+    short = BenchFaults(supply_pressure=120e3)
+    result = grasped(stage, profiles["apple"], mode, short)
+    assert result.outcome is Outcome.FORCE_NOT_REACHED
+
+
+def test_a_force_sensor_that_is_stuck_does_not_cost_an_egg(
+    stage: Stage, profiles: Profiles
+) -> None:
+    stage.measure()
+    egg = profiles["raw_egg"]
+    grasped(stage, egg, Mode.FORCE, BenchFaults(frozen=frozenset({Channel.GRIP})))
+    assert stage.peak() < egg.damage_force

@@ -1,0 +1,274 @@
+from collections.abc import Mapping
+from dataclasses import replace
+
+import pytest
+
+from gripperd.bench.faults import BenchFaults
+from gripperd.bench.placed import ObjectState
+from gripperd.bench.sensors import Channel
+from gripperd.control.command import GraspOrder, Outcome, Status
+from gripperd.control.gripper import Gripper
+from gripperd.control.ledger import LONGEST_QUEUE, Key
+from gripperd.control.profile import Mode, Profile
+from gripperd.control.states import Event, Grip, Machine
+from gripperd.errors import InputError, Refused
+from gripperd.model import Chain
+
+from .stage import Stage, ordered, real
+
+Profiles = Mapping[str, Profile]
+
+
+def test_before_anything_is_known_the_state_says_so(stage: Stage) -> None:
+    state = stage.state
+    assert (state.machine, state.grip) == (Machine.OFFLINE, Grip.UNKNOWN)
+    assert (state.current, state.measured, state.age) == (None, None, None)
+    assert state.available_transitions == (Event.LINK_UP,)
+
+
+@pytest.mark.parametrize("current", [0.0, 0.004, 0.0107, 0.020])
+def test_what_is_found_is_adopted_and_nothing_is_written(
+    stage: Stage, current: float
+) -> None:
+    stage.rig.write_current(current)
+    stage.pass_time(1.0)
+    stage.run(1.0)
+    assert stage.writes == []
+    assert stage.state.machine is Machine.READY
+    assert stage.state.adopted
+    assert stage.state.current == pytest.approx(current)
+
+
+def test_it_looks_three_times_before_it_believes(stage: Stage) -> None:
+    machines = []
+    for _ in range(4):
+        stage.tick()
+        machines.append(stage.state.machine)
+    assert machines == [*[Machine.ATTACHING] * 3, Machine.READY]
+
+
+def test_a_held_object_is_found_held(stage: Stage, apple: GraspOrder) -> None:
+    stage.rig.plant.place(real(apple.profile))
+    stage.rig.write_current(0.0107)
+    stage.pass_time(2.0)
+    stage.run(0.5)
+    assert stage.state.grip is Grip.HOLDING
+    with pytest.raises(Refused, match="an object is being held") as refused:
+        stage.submit(apple)
+    assert refused.value.code == "object-held"
+    assert refused.value.hints == ("release first",)
+
+
+def test_open_jaws_are_found_open(stage: Stage) -> None:
+    stage.run(0.5)
+    assert stage.state.grip is Grip.RELEASED
+
+
+def test_jaws_closed_on_nothing_are_of_no_known_grip(stage: Stage) -> None:
+    stage.rig.write_current(0.0107)
+    stage.pass_time(2.0)
+    stage.run(0.5)
+    assert stage.state.grip is Grip.UNKNOWN
+
+
+def test_without_auto_enable_it_waits_to_be_enabled(
+    stage: Stage, chain: Chain, apple: GraspOrder
+) -> None:
+    stage.gripper = Gripper("g0", chain, auto_enable=False, identify=lambda: "c1")
+    stage.run(0.5)
+    assert stage.state.machine is Machine.DISABLED
+    with pytest.raises(Refused, match="while the gripper is disabled") as refused:
+        stage.submit(apple)
+    assert refused.value.code == "wrong-state"
+    assert "enable" in refused.value.hints[0]
+    stage.gripper.enable()
+    assert stage.submit(apple).status is Status.QUEUED
+
+
+def test_a_grasp_succeeds_and_tells_everything(ready: Stage, apple: GraspOrder) -> None:
+    ready.rig.plant.place(real(apple.profile))
+    queued = ready.submit(apple)
+    assert queued.status is Status.QUEUED
+    ready.tick()
+    assert ready.state.command == queued.id
+    assert (ready.state.machine, ready.state.grip) == (
+        Machine.EXECUTING,
+        Grip.CLOSING,
+    )
+    ready.until(lambda: ready.command(queued).final)
+    command = ready.command(queued)
+    assert command.status is Status.SUCCEEDED
+    assert command.error is None
+    assert command.result is not None
+    assert command.result.outcome is Outcome.HELD
+    assert command.started_at is not None
+    assert command.completed_at is not None
+    assert command.created_at < command.started_at < command.completed_at
+    state = ready.state
+    assert (state.machine, state.grip) == (Machine.READY, Grip.HOLDING)
+    assert (state.holding, state.command) == ("apple", None)
+
+
+def test_a_held_object_is_held_without_another_write(holding: Stage) -> None:
+    holding.run(5.0)
+    assert holding.writes == []
+    assert holding.state.grip is Grip.HOLDING
+    placed = holding.rig.plant.placed
+    assert placed is not None
+    assert placed.state is ObjectState.HELD
+
+
+def test_a_missed_grasp_fails_but_leaves_the_gripper_ready(
+    ready: Stage, apple: GraspOrder
+) -> None:
+    command = ready.complete(apple)
+    assert command.status is Status.FAILED
+    failure = ready.failure(command)
+    assert (failure.category, failure.code) == ("outcome", "no_object")
+    assert command.result is not None
+    assert (ready.state.machine, ready.state.grip) == (Machine.READY, Grip.NO_PART)
+
+
+def test_a_release_opens_the_jaws(holding: Stage) -> None:
+    command = holding.complete(None)
+    assert command.status is Status.SUCCEEDED
+    assert holding.state.grip is Grip.RELEASED
+    assert holding.state.holding is None
+    assert holding.state.current == pytest.approx(0.004)
+    holding.run(0.5)
+    assert holding.rig.plant.opening == pytest.approx(0.085)
+
+
+def test_a_release_that_did_not_open_is_told(holding: Stage) -> None:
+    holding.rig.plant.faults = BenchFaults(frozen=frozenset({Channel.PRESSURE}))
+    command = holding.complete(None)
+    assert command.status is Status.FAILED
+    assert holding.failure(command).code == "not_released"
+    assert holding.state.grip is Grip.UNKNOWN
+
+
+def test_with_an_object_in_the_jaws_another_grasp_is_refused(
+    holding: Stage, apple: GraspOrder
+) -> None:
+    with pytest.raises(Refused, match="apple is being held"):
+        holding.submit(apple)
+    assert holding.writes == []
+
+
+def test_a_grasp_may_wait_behind_a_release(holding: Stage, apple: GraspOrder) -> None:
+    holding.submit(None)
+    grasp = holding.submit(apple)
+    holding.rig.plant.remove()
+    holding.until(lambda: holding.command(grasp).final)
+    assert holding.failure(grasp).code == "no_object"
+
+
+def test_what_cannot_go_well_is_refused_before_it_is_queued(
+    ready: Stage, profiles: Profiles
+) -> None:
+    with pytest.raises(Refused, match="raw_egg is damaged at 35 N"):
+        ready.submit(ordered(profiles["raw_egg"], Mode.FORCE, 30.0))
+    assert ready.gripper.ledger.newest(10) == []
+
+
+def test_a_part_that_is_taken_away_is_lost(holding: Stage, apple: GraspOrder) -> None:
+    holding.rig.plant.remove()
+    holding.until(lambda: holding.state.grip is Grip.PART_LOST, 0.5)
+    assert holding.state.machine is Machine.READY
+    assert holding.submit(apple).status is Status.QUEUED
+
+
+def test_a_lost_part_is_not_held(holding: Stage) -> None:
+    holding.rig.plant.remove()
+    holding.until(lambda: holding.state.grip is Grip.PART_LOST, 0.5)
+    assert holding.state.holding is None
+
+
+def test_a_light_grip_without_its_sensor_is_not_taken_for_lost(
+    ready: Stage, profiles: Profiles
+) -> None:
+    ready.rig.plant.faults = BenchFaults(broken=frozenset({Channel.GRIP}))
+    ready.rig.plant.place(real(profiles["grape"]))
+    command = ready.complete(ordered(profiles["grape"], Mode.FORCE))
+    assert command.status is Status.SUCCEEDED
+    ready.run(0.2)
+    assert ready.state.grip is Grip.HOLDING
+
+
+def test_a_grasp_that_waited_behind_a_grasp_does_not_squeeze_what_is_held(
+    ready: Stage, profiles: Profiles
+) -> None:
+    # Something as tender as a grape where the next in line expects an apple.
+    tender = replace(profiles["grape"], diameter=0.065)
+    ready.rig.plant.place(real(tender))
+    first = ready.submit(ordered(tender, Mode.FORCE, 2.0))
+    second = ready.submit(ordered(profiles["apple"], Mode.FORCE))
+    ready.until(lambda: ready.command(second).final)
+    assert ready.command(first).status is Status.SUCCEEDED
+    assert ready.failure(second).category == "precondition"
+    assert ready.peak() < tender.damage_force
+
+
+def test_the_queue_is_bounded(ready: Stage, apple: GraspOrder) -> None:
+    ready.submit(apple)
+    ready.tick()
+    for _ in range(LONGEST_QUEUE):
+        ready.submit(None)
+    with pytest.raises(Refused, match="8 commands are waiting") as refused:
+        ready.submit(None)
+    assert refused.value.code == "queue-full"
+    assert len(ready.gripper.ledger.newest(100)) == LONGEST_QUEUE + 1
+
+
+def test_the_same_key_is_the_same_command(ready: Stage, apple: GraspOrder) -> None:
+    key = Key("k", "grasp apple")
+    first, replayed = ready.gripper.submit(apple, 30.0, key, ready.instant)
+    assert not replayed
+    again, replayed = ready.gripper.submit(apple, 30.0, key, ready.instant)
+    assert replayed
+    assert again.id == first.id
+    ready.until(lambda: ready.command(first).final)
+    over, replayed = ready.gripper.submit(apple, 30.0, key, ready.instant)
+    assert replayed
+    assert over.status is Status.FAILED
+    assert len(ready.gripper.ledger.newest(100)) == 1
+
+
+def test_a_replay_is_answered_in_any_state(ready: Stage, apple: GraspOrder) -> None:
+    key = Key("k", "grasp apple")
+    first = ready.submit(apple, key=key)
+    ready.gripper.link_lost("gone", ready.instant)
+    assert ready.submit(apple, key=key).id == first.id
+
+
+def test_a_key_for_another_request_is_an_error(ready: Stage, apple: GraspOrder) -> None:
+    ready.submit(apple, key=Key("k", "grasp apple"))
+    with pytest.raises(InputError, match="'k' was used for another") as wrong:
+        ready.submit(None, key=Key("k", "release"))
+    assert wrong.value.key == "Idempotency-Key"
+
+
+def test_a_refused_command_leaves_its_key_free(
+    ready: Stage, profiles: Profiles, apple: GraspOrder
+) -> None:
+    with pytest.raises(Refused):
+        ready.submit(ordered(profiles["apple"], Mode.FORCE, 1.0), key=Key("k", "1 N"))
+    assert ready.submit(apple, key=Key("k", "25 N")).status is Status.QUEUED
+
+
+def test_disabled_it_holds_but_takes_no_command(holding: Stage) -> None:
+    holding.gripper.disable(holding.instant)
+    holding.run(1.0)
+    with pytest.raises(Refused):
+        holding.submit(None)
+    assert holding.writes == []
+    assert holding.state.grip is Grip.HOLDING
+
+
+def test_enabling_moves_nothing(ready: Stage, apple: GraspOrder) -> None:
+    ready.submit(apple)
+    ready.gripper.disable(ready.instant)
+    ready.run(0.1)
+    ready.gripper.enable()
+    ready.run(0.5)
+    assert ready.writes == []

@@ -1,0 +1,95 @@
+"""The program, run for real on free ports, for tests and benchmarks."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, NamedTuple
+
+from gripperd.config import shipped
+
+START = (sys.executable, "-m", "gripperd")
+
+
+class Daemon(NamedTuple):
+    """Where a running daemon is found."""
+
+    url: str
+    bench: tuple[str, int]
+    process: "subprocess.Popen[str]"
+
+
+def settings_file(folder: Path) -> Path:
+    """The shipped settings with free ports and sockets of their own."""
+    text = shipped("gripperd.yaml").read_text()
+    text = text.replace("port: 8765", "port: 0").replace(":15020", ":0")
+    for name in ("models", "profiles"):
+        text = text.replace(f": {name}", f": {shipped(name)}")
+    path = folder / "gripperd.yaml"
+    path.write_text(f"runtime_dir: {folder / 'run'}\n{text}")
+    return path
+
+
+def gripperd(*arguments: str, **environment: str) -> "subprocess.CompletedProcess[str]":
+    """Run a command to its end."""
+    return subprocess.run(
+        [*START, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        env=os.environ | environment,
+    )
+
+
+@contextmanager
+def running(*arguments: str, **environment: str) -> "Iterator[subprocess.Popen[str]]":
+    """Run a command inside, and end it as a service manager would."""
+    process = subprocess.Popen(
+        [*START, *arguments],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"} | environment,
+    )
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGTERM)
+        process.wait(30)
+        assert process.stdout is not None
+        process.stdout.close()
+
+
+@contextmanager
+def running_daemon(folder: Path) -> Iterator[Daemon]:
+    """Run the daemon inside, ready."""
+    with running("run", "--config", str(settings_file(folder))) as process:
+        assert process.stdout is not None
+        host, port = found(process.stdout, r"TCP on ([\d.]+):(\d+)")
+        (url,) = found(process.stdout, r"(http://\S+)")
+        yield Daemon(url, (host, int(port)), process)
+
+
+def found(lines: IO[str], pattern: str) -> tuple[str, ...]:
+    """Groups of the first line that matches."""
+    for line in lines:
+        match = re.search(pattern, line)
+        if match:
+            return match.groups()
+    message = f"the program ended before it said {pattern}"
+    raise RuntimeError(message)
+
+
+def children(process: "subprocess.Popen[str]") -> dict[str, int]:
+    """Process ids of the daemon's parts, by name."""
+    listing = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text()
+    names = {}
+    for pid in listing.split():
+        command = Path(f"/proc/{pid}/cmdline").read_text().split("\0")
+        if "gripperd" in command:  # one that has just died has no command line
+            names[command[command.index("gripperd") + 1]] = int(pid)
+    return names

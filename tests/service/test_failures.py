@@ -1,0 +1,35 @@
+"""Defects: reported, and nothing told."""
+
+import logging
+
+import httpx
+import pytest
+from fastapi import FastAPI
+
+from gripperd.service.failures import answer_failures
+from gripperd.service.server import serve
+
+from .conftest import Report, running
+from .test_bad_input import is_problem
+
+
+async def _defective(report: Report) -> None:
+    app = FastAPI()
+    answer_failures(app)
+
+    @app.get("/")
+    async def divide() -> float:
+        secret = 0
+        return 1 / secret
+
+    await serve(app, "127.0.0.1", 0, report)
+
+
+def test_a_defect_is_logged_and_not_told(caplog: pytest.LogCaptureFixture) -> None:
+    with running(_defective) as url, caplog.at_level(logging.ERROR):
+        answer = httpx.get(url)
+    found = is_problem(answer, 500, "internal")
+    assert "secret" not in answer.text
+    assert "ZeroDivision" not in answer.text
+    assert found["retryable"] is False
+    assert "ZeroDivisionError" in caplog.text

@@ -1,0 +1,38 @@
+"""Health and what one has to know."""
+
+import httpx
+
+from .conftest import Daemon
+from .test_bad_input import is_problem
+
+
+def test_a_whole_daemon_is_ready(daemon: Daemon) -> None:
+    assert daemon.http.get("/v1/health/live").json() == {"status": "live"}
+    assert daemon.http.get("/v1/health/ready").json() == {"status": "ready"}
+
+
+def test_a_service_alone_lives_but_is_not_ready(lonely: httpx.Client) -> None:
+    assert lonely.get("/v1/health/live").status_code == 200
+    found = is_problem(lonely.get("/v1/health/ready"), 503, "not-ready")
+    assert "the control process is not running" in found["detail"]
+
+
+def test_info_says_what_one_has_to_know(daemon: Daemon) -> None:
+    found = daemon.http.get("/v1/info").json()
+    assert (found["version"], found["mode"]) == ("1.2.3", "simulated")
+    assert found["started_at"] == "2023-11-14T22:13:20Z"
+    assert found["models"] == {"g0": "reference"}
+    assert found["fail_modes"] == {"g0": "freeze"}
+    assert (found["control"], found["real_time"]) == ("up", False)
+    assert found["overruns"] >= 0
+    said = " ".join(found["warnings"])
+    assert "not a safety function" in said
+    assert "no watchdog" in said
+    assert "without real-time priority" in said
+
+
+def test_info_is_there_without_control(lonely: httpx.Client) -> None:
+    found = lonely.get("/v1/info").json()
+    assert found["mode"] == "hardware"
+    assert "not running" in found["control"]
+    assert (found["real_time"], found["overruns"]) == (None, None)
