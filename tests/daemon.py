@@ -30,7 +30,8 @@ def settings_file(folder: Path) -> Path:
     for name in ("models", "profiles"):
         text = text.replace(f": {name}", f": {shipped(name)}")
     path = folder / "gripperd.yaml"
-    path.write_text(f"runtime_dir: {folder / 'run'}\n{text}")
+    places = f"runtime_dir: {folder / 'run'}\nstate_dir: {folder / 'state'}\n"
+    path.write_text(places + text)
     return path
 
 

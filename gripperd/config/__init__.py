@@ -9,6 +9,7 @@ from gripperd.config.profile import (
     parse_profile,
     profile_document,
 )
+from gripperd.config.saved import delete_profile, saved_profiles, write_profile
 from gripperd.config.settings import (
     BenchBus,
     BenchSettings,
@@ -28,6 +29,7 @@ __all__ = [
     "Http",
     "ModelFile",
     "Settings",
+    "delete_profile",
     "load_chain",
     "load_model",
     "load_profile",
@@ -36,5 +38,7 @@ __all__ = [
     "parse_profile",
     "profile_document",
     "reference_chain",
+    "saved_profiles",
     "shipped",
+    "write_profile",
 ]

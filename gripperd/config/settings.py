@@ -72,6 +72,8 @@ class Settings:
     http: Http
     runtime_dir: Path
     """Where the sockets between the processes live."""
+    state_dir: Path
+    """Where what users saved lives."""
     grippers: Mapping[str, GripperSettings]
     profiles: Mapping[str, Profile]
     bench: BenchSettings

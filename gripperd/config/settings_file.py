@@ -103,6 +103,7 @@ class SettingsSection(Section):
 
     http: HttpSection = HttpSection()
     runtime_dir: str | None = Field(default=None, min_length=1)
+    state_dir: str | None = Field(default=None, min_length=1)
     grippers: dict[Name, GripperSection] = Field(min_length=1)
     profiles: Annotated[Mapping[str, Profile], PlainValidator(_profiles)]
     bench: BenchSection = BenchSection()
@@ -142,8 +143,8 @@ def load_settings(
     path
         The file; None takes what ``GRIPPERD_CONFIG`` names, or else the shipped bench.
     environ
-        The environment: ``GRIPPERD_CONFIG``, and ``RUNTIME_DIRECTORY`` as systemd sets
-        it.
+        The environment: ``GRIPPERD_CONFIG``; ``RUNTIME_DIRECTORY`` and
+        ``STATE_DIRECTORY`` as systemd sets them; ``XDG_STATE_HOME``.
 
     Raises
     ------
@@ -158,6 +159,7 @@ def load_settings(
     return Settings(
         http=Http(host=section.http.host, port=section.http.port),
         runtime_dir=_runtime_dir(section.runtime_dir, folder, environ),
+        state_dir=_state_dir(section.state_dir, folder, environ),
         grippers={
             name: gripper.settings(name) for name, gripper in section.grippers.items()
         },
@@ -175,6 +177,17 @@ def load_settings(
 def _runtime_dir(named: str | None, folder: Path, environ: Mapping[str, str]) -> Path:
     if named is not None:
         return folder / named
-    # systemd lists several directories with colons; the first is the unit's own.
-    given = environ.get("RUNTIME_DIRECTORY", "").partition(":")[0]
+    given = _first(environ, "RUNTIME_DIRECTORY")
     return Path(given or Path(tempfile.gettempdir(), f"gripperd-{os.getuid()}"))
+
+
+def _state_dir(named: str | None, folder: Path, environ: Mapping[str, str]) -> Path:
+    if named is not None:
+        return folder / named
+    home = environ.get("XDG_STATE_HOME") or Path("~/.local/state").expanduser()
+    return Path(_first(environ, "STATE_DIRECTORY") or Path(home, "gripperd"))
+
+
+def _first(environ: Mapping[str, str], variable: str) -> str:
+    """The unit's own directory: systemd lists several with colons."""
+    return environ.get(variable, "").partition(":")[0]

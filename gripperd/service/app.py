@@ -72,7 +72,7 @@ def create_app(
         settings=settings,
         control=control,
         bench=bench,
-        library=ProfileLibrary(settings.profiles),
+        library=ProfileLibrary(settings.profiles, settings.state_dir / "profiles"),
         states=shared_states(settings, control),
         started_at=started_at,
         version=version,

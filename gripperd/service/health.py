@@ -29,7 +29,6 @@ NO_WATCHDOG = (
 )
 FAILS_OPEN = "{name}: without power or air the muscle vents and the object drops"
 NO_REAL_TIME = "the control loop runs without real-time priority; see overruns"
-VOLATILE = "profiles that users save are lost when the service restarts"
 
 routes = router("health")
 
@@ -119,4 +118,3 @@ def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
             yield FAILS_OPEN.format(name=name)
     if overview is not None and not overview.real_time:
         yield NO_REAL_TIME
-    yield VOLATILE

@@ -2,9 +2,11 @@
 
 import hashlib
 from collections.abc import Mapping
+from pathlib import Path
 
 import msgspec
 
+from gripperd.config import delete_profile, saved_profiles, write_profile
 from gripperd.config.complaint import did_you_mean
 from gripperd.control.profile import Profile
 from gripperd.errors import NotFound, Refused
@@ -13,19 +15,26 @@ from gripperd.errors import NotFound, Refused
 class ProfileLibrary:
     """Profiles by name; the originals cannot be changed.
 
-    Users' profiles live as long as this object. Versions of a name are never used
-    twice, so a version says which limits a grasp went by.
+    A saved profile has the next version of its name, so that a version says which
+    limits a grasp went by. An original takes the place of a saved one of its name.
 
     Parameters
     ----------
     originals
         What came with the settings.
+    folder
+        Where users' profiles are kept.
     """
 
-    def __init__(self, originals: Mapping[str, Profile]) -> None:
+    def __init__(self, originals: Mapping[str, Profile], folder: Path) -> None:
         self._originals = originals
-        self._own: dict[str, Profile] = {}
-        self._versions: dict[str, int] = {}
+        self._folder = folder
+        self._own = {
+            name: profile
+            for name, profile in saved_profiles(folder).items()
+            if name not in originals
+        }
+        self._versions = {name: own.version for name, own in self._own.items()}
 
     def all(self) -> list[Profile]:
         """Every profile, the originals first."""
@@ -67,6 +76,7 @@ class ProfileLibrary:
             The name is that of an original.
         """
         self.check_changeable(profile.name)
+        write_profile(profile, self._folder)
         self._own[profile.name] = profile
         self._versions[profile.name] = profile.version
 
@@ -82,6 +92,7 @@ class ProfileLibrary:
         """
         self.get(name)
         self.check_changeable(name)
+        delete_profile(name, self._folder)
         del self._own[name]
 
     def check_changeable(self, name: str) -> None:

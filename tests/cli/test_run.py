@@ -72,9 +72,14 @@ def test_readiness_is_told_when_the_interface_answers_and_not_before(
 def test_the_service_is_killed_and_the_grip_does_not_notice(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         held = hold_an_egg(daemon)
+        egg = httpx.get(f"{daemon.url}/v1/profiles/raw_egg").json()
+        mine = egg | {"name": "duck_egg", "diameter_mm": 45}
+        httpx.post(f"{daemon.url}/v1/profiles", json=mine).raise_for_status()
         os.kill(children(daemon.process)["service"], signal.SIGKILL)
         until(lambda: not answers(daemon.url))
         until(lambda: answers(daemon.url))
+        kept = httpx.get(f"{daemon.url}/v1/profiles/duck_egg").json()
+        assert kept["diameter_mm"] == 45
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
         state = httpx.get(f"{daemon.url}/v1/grippers/g0").json()
         assert (state["grip"], state["holding"]) == ("holding", "raw_egg")

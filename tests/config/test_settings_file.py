@@ -303,3 +303,14 @@ def test_everything_wrong_in_any_of_the_files_is_said_at_once(
 def test_a_missing_settings_file_is_named(refusal: Refusal, tmp_path: Path) -> None:
     said = refusal(lambda path: load_settings(path, {}), tmp_path / "gone.yaml")
     assert said == ["gone.yaml: there is no such file"]
+
+
+def test_what_users_save_has_a_place_of_its_own(settings_file: Path) -> None:
+    systemd = {"STATE_DIRECTORY": "/var/lib/gripperd:/var/lib/other"}
+    assert load_settings(settings_file, systemd).state_dir == Path("/var/lib/gripperd")
+    home = {"XDG_STATE_HOME": "/home/egg/.state"}
+    found = load_settings(settings_file, home).state_dir
+    assert found == Path("/home/egg/.state/gripperd")
+    settings_file.write_text(settings_file.read_text() + "state_dir: kept\n")
+    named = load_settings(settings_file, systemd).state_dir
+    assert named == settings_file.parent / "kept"

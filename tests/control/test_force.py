@@ -82,3 +82,35 @@ def test_a_lost_sensor_leaves_no_old_force(chain: Chain) -> None:
     sense.update(measured(BROKEN), PERIOD)
     assert sense.filtered is None
     assert not sense.touching
+
+
+def sensed(sense: ForceSense, force: float, opening: float, seconds: float) -> Quality:
+    """Quality after the sensor has said the same for so long, at 10.7 mA."""
+    for _ in range(round(seconds / PERIOD)):
+        sense.update(measured(Reading(force), 209_375.0, opening), PERIOD)
+    return sense.now.quality
+
+
+def test_a_sensor_at_rest_is_believed_as_long_as_the_model_agrees(
+    chain: Chain,
+) -> None:
+    # 47.6 N on a rigid object of 65 mm; 10 N more or less are within the doubt.
+    for force in (47.6, 39.0, 56.0):
+        assert sensed(ForceSense(chain), force, 0.065, 2.0) is Quality.GOOD
+
+
+@pytest.mark.parametrize("force", [0.0, 36.0, 60.0])
+def test_a_sensor_at_rest_is_doubted_when_the_model_contradicts(
+    chain: Chain, force: float
+) -> None:
+    sense = ForceSense(chain)
+    assert sensed(sense, force, 0.065, 0.15) is Quality.GOOD
+    assert sensed(sense, force, 0.065, 0.15) is Quality.SUBSTITUTED
+    assert f"stuck at {force:.2f} N" in sense.now.cause
+    assert sense.now.value == pytest.approx(47.6, abs=0.05)
+
+
+def test_a_sensor_that_moves_again_is_believed_again(chain: Chain) -> None:
+    sense = ForceSense(chain)
+    sensed(sense, 0.0, 0.065, 1.0)
+    assert sensed(sense, 0.01, 0.065, PERIOD) is Quality.GOOD

@@ -8,13 +8,13 @@ from gripperd.bench.placed import ObjectState
 from gripperd.bench.sensors import Channel
 from gripperd.control.command import GraspOrder, Outcome, Status
 from gripperd.control.gripper import Gripper
-from gripperd.control.ledger import LONGEST_QUEUE, Key
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Event, Grip, Machine
-from gripperd.errors import InputError, Refused
+from gripperd.errors import Refused
 from gripperd.model import Chain
+from gripperd.signals import Reading
 
-from .stage import Stage, ordered, real
+from .stage import PERIOD, Stage, ordered, real
 
 Profiles = Mapping[str, Profile]
 
@@ -147,6 +147,21 @@ def test_a_release_that_did_not_open_is_told(holding: Stage) -> None:
     assert holding.state.grip is Grip.UNKNOWN
 
 
+def test_a_reading_the_model_has_no_answer_to_ends_the_command_alone(
+    ready: Stage, apple: GraspOrder
+) -> None:
+    command = ready.submit(apple)
+    ready.run(0.5)
+    # Jaws 250 mm apart: the strands of the braid would have to be longer than they are.
+    for _ in range(2):
+        absurd = replace(ready.measure(), grip=Reading(5.0), opening=Reading(0.25))
+        ready.write(ready.gripper.period(absurd, PERIOD, ready.instant))
+    assert ready.failure(command).code == "no-answer"
+    assert "braid" in ready.failure(command).message
+    ready.run(1.0)
+    assert ready.state.machine is Machine.READY
+
+
 def test_with_an_object_in_the_jaws_another_grasp_is_refused(
     holding: Stage, apple: GraspOrder
 ) -> None:
@@ -178,6 +193,17 @@ def test_a_part_that_is_taken_away_is_lost(holding: Stage, apple: GraspOrder) ->
     assert holding.submit(apple).status is Status.QUEUED
 
 
+def test_a_part_is_lost_by_sight_too(ready: Stage, apple: GraspOrder) -> None:
+    plant = ready.rig.plant
+    plant.faults = BenchFaults(broken=frozenset({Channel.GRIP}))
+    plant.place(real(apple.profile))
+    assert ready.complete(apple).status is Status.SUCCEEDED
+    ready.run(1.0)
+    assert ready.state.grip is Grip.HOLDING
+    plant.remove()
+    ready.until(lambda: ready.state.grip is Grip.PART_LOST, 1.0)
+
+
 def test_a_lost_part_is_not_held(holding: Stage) -> None:
     holding.rig.plant.remove()
     holding.until(lambda: holding.state.grip is Grip.PART_LOST, 0.5)
@@ -207,53 +233,6 @@ def test_a_grasp_that_waited_behind_a_grasp_does_not_squeeze_what_is_held(
     assert ready.command(first).status is Status.SUCCEEDED
     assert ready.failure(second).category == "precondition"
     assert ready.peak() < tender.damage_force
-
-
-def test_the_queue_is_bounded(ready: Stage, apple: GraspOrder) -> None:
-    ready.submit(apple)
-    ready.tick()
-    for _ in range(LONGEST_QUEUE):
-        ready.submit(None)
-    with pytest.raises(Refused, match="8 commands are waiting") as refused:
-        ready.submit(None)
-    assert refused.value.code == "queue-full"
-    assert len(ready.gripper.ledger.newest(100)) == LONGEST_QUEUE + 1
-
-
-def test_the_same_key_is_the_same_command(ready: Stage, apple: GraspOrder) -> None:
-    key = Key("k", "grasp apple")
-    first, replayed = ready.gripper.submit(apple, 30.0, key, ready.instant)
-    assert not replayed
-    again, replayed = ready.gripper.submit(apple, 30.0, key, ready.instant)
-    assert replayed
-    assert again.id == first.id
-    ready.until(lambda: ready.command(first).final)
-    over, replayed = ready.gripper.submit(apple, 30.0, key, ready.instant)
-    assert replayed
-    assert over.status is Status.FAILED
-    assert len(ready.gripper.ledger.newest(100)) == 1
-
-
-def test_a_replay_is_answered_in_any_state(ready: Stage, apple: GraspOrder) -> None:
-    key = Key("k", "grasp apple")
-    first = ready.submit(apple, key=key)
-    ready.gripper.link_lost("gone", ready.instant)
-    assert ready.submit(apple, key=key).id == first.id
-
-
-def test_a_key_for_another_request_is_an_error(ready: Stage, apple: GraspOrder) -> None:
-    ready.submit(apple, key=Key("k", "grasp apple"))
-    with pytest.raises(InputError, match="'k' was used for another") as wrong:
-        ready.submit(None, key=Key("k", "release"))
-    assert wrong.value.key == "Idempotency-Key"
-
-
-def test_a_refused_command_leaves_its_key_free(
-    ready: Stage, profiles: Profiles, apple: GraspOrder
-) -> None:
-    with pytest.raises(Refused):
-        ready.submit(ordered(profiles["apple"], Mode.FORCE, 1.0), key=Key("k", "1 N"))
-    assert ready.submit(apple, key=Key("k", "25 N")).status is Status.QUEUED
 
 
 def test_disabled_it_holds_but_takes_no_command(holding: Stage) -> None:

@@ -5,6 +5,11 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import cast
 
+from gripperd.drivers.bus import Bus, TcpAddress, open_bus
+from gripperd.protocol.modbus import Write
+
+SOON = 10.0
+"""Longest wait for something that must happen; no test takes this long. [s]"""
 REQUEST = 12
 """Octets of every request that the tests send."""
 
@@ -69,7 +74,7 @@ class Peer:
         await self._until(lambda: len(self.lines) >= count)
 
     async def _until(self, happened: Callable[[], bool]) -> None:
-        async with asyncio.timeout(10.0):
+        async with asyncio.timeout(SOON):
             while not happened():
                 self.news.clear()
                 await self.news.wait()
@@ -88,7 +93,7 @@ async def listening(behave: Behaviour, port: int = 0) -> AsyncIterator[Peer]:
         server.close()
         for line in peer.lines:
             line.hang_up()
-        async with asyncio.timeout(10.0):
+        async with asyncio.timeout(SOON):
             for line in peer.lines:
                 await line.closed.wait()
 
@@ -100,3 +105,49 @@ def echo(line: Line, frame: bytes) -> None:
 
 def silence(line: Line, frame: bytes) -> None:
     """Answer nothing."""
+
+
+@asynccontextmanager
+async def connected(
+    behave: Behaviour, patience: float = SOON
+) -> AsyncIterator[tuple[Bus, Peer]]:
+    """A bus on a peer that behaves so; `patience` is its time-out."""
+    async with listening(behave) as peer:
+        address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=patience)
+        async with open_bus(address) as bus:
+            await up(bus)
+            yield bus, peer
+
+
+async def up(bus: Bus) -> None:
+    """Return once there is a connection."""
+    async with asyncio.timeout(SOON):
+        await bus.up.wait()
+
+
+async def closed(line: Line) -> None:
+    """Return once a line is closed."""
+    async with asyncio.timeout(SOON):
+        await line.closed.wait()
+
+
+def write(value: int) -> Write:
+    """The request that the tests send."""
+    return Write(1, 0, (value,))
+
+
+def value_of(frame: bytes) -> int:
+    """The value in such a request."""
+    return int.from_bytes(frame[10:12], "big")
+
+
+def once(misbehave: Behaviour) -> Behaviour:
+    """Misbehave at the first request, be honest ever after."""
+    honest = False
+
+    def behave(line: Line, frame: bytes) -> None:
+        nonlocal honest
+        (echo if honest else misbehave)(line, frame)
+        honest = True
+
+    return behave

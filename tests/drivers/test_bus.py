@@ -1,10 +1,9 @@
 import asyncio
-from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import asynccontextmanager
+from collections.abc import Awaitable, Callable
 
 import pytest
 
-from gripperd.drivers.bus import Bus, TcpAddress, Turns, _Wire, open_bus
+from gripperd.drivers.bus import TcpAddress, _Wire, open_bus
 from gripperd.errors import (
     BadReply,
     DeviceRefused,
@@ -12,56 +11,26 @@ from gripperd.errors import (
     LinkLost,
     ReplyTimeout,
 )
-from gripperd.protocol.modbus import Read, Table, Write, encode_request
+from gripperd.protocol.modbus import Read, Table, encode_request
 
-from .peer import Behaviour, Line, Peer, echo, listening, silence
+from .peer import (
+    SOON,
+    Behaviour,
+    Line,
+    closed,
+    connected,
+    echo,
+    listening,
+    once,
+    silence,
+    up,
+    value_of,
+    write,
+)
 
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
-SOON = 10.0
-"""Longest wait for something that must happen; no test takes this long. [s]"""
 SHORT = 0.05
 """Reply time-out where the peer stays silent on purpose. [s]"""
-
-
-@asynccontextmanager
-async def connected(
-    behave: Behaviour, patience: float = SOON
-) -> AsyncIterator[tuple[Bus, Peer]]:
-    async with listening(behave) as peer:
-        address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=patience)
-        async with open_bus(address) as bus:
-            await up(bus)
-            yield bus, peer
-
-
-async def up(bus: Bus) -> None:
-    async with asyncio.timeout(SOON):
-        await bus.up.wait()
-
-
-async def closed(line: Line) -> None:
-    async with asyncio.timeout(SOON):
-        await line.closed.wait()
-
-
-def write(value: int) -> Write:
-    return Write(1, 0, (value,))
-
-
-def value_of(frame: bytes) -> int:
-    return int.from_bytes(frame[10:12], "big")
-
-
-def once(misbehave: Behaviour) -> Behaviour:
-    """Misbehave at the first request, be honest ever after."""
-    honest = False
-
-    def behave(line: Line, frame: bytes) -> None:
-        nonlocal honest
-        (echo if honest else misbehave)(line, frame)
-        honest = True
-
-    return behave
 
 
 def replying(change: Callable[[bytes], bytes]) -> Behaviour:
@@ -220,52 +189,6 @@ async def test_a_cancelled_request_closes_the_line() -> None:
         assert bus.statistics.errors == {"CancelledError": 1}
 
 
-async def test_a_request_cancelled_in_the_queue_is_never_sent() -> None:
-    async with connected(silence) as (bus, peer):
-        first = asyncio.create_task(bus.ask(write(1)))
-        await peer.asked(1)
-        second = asyncio.create_task(bus.ask(write(2)))
-        third = asyncio.create_task(bus.ask(write(3)))
-        await asyncio.sleep(0)
-        second.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await second
-        peer.behave = echo
-        echo(peer.lines[0], peer.requests[0])
-        assert await first == (1,)
-        assert await third == (3,)
-        assert [value_of(frame) for frame in peer.requests] == [1, 3]
-        assert len(peer.lines) == 1
-
-
-async def test_one_request_at_a_time_is_on_the_line() -> None:
-    async with connected(silence) as (bus, peer):
-        asking = [asyncio.create_task(bus.ask(write(value))) for value in range(3)]
-        for count in range(3):
-            await peer.asked(count + 1)
-            assert len(peer.requests) == count + 1
-            echo(peer.lines[0], peer.requests[count])
-            assert await asking[count] == (count,)
-
-
-async def test_an_urgent_request_passes_fifty_that_wait() -> None:
-    async with connected(silence) as (bus, peer):
-        first = asyncio.create_task(bus.ask(write(0)))
-        await peer.asked(1)
-        patient = [asyncio.create_task(bus.ask(write(value))) for value in range(1, 51)]
-        await asyncio.sleep(0)
-        urgent = [
-            asyncio.create_task(bus.ask(write(value), urgent=True))
-            for value in (901, 902)
-        ]
-        await asyncio.sleep(0)
-        peer.behave = echo
-        echo(peer.lines[0], peer.requests[0])
-        await asyncio.gather(first, *patient, *urgent)
-        values = [value_of(frame) for frame in peer.requests]
-        assert values == [0, 901, 902, *range(1, 51)]
-
-
 async def test_a_refusal_of_the_device_leaves_the_line_alone() -> None:
     def refuse(line: Line, frame: bytes) -> None:
         line.send(frame[:4] + b"\0\3\1\x86\3")
@@ -346,31 +269,3 @@ async def test_a_wire_that_was_just_lost_says_so() -> None:
         with pytest.raises(LinkLost):
             async with asyncio.timeout(SHORT):
                 await wire.send(encode_request(write(1), 1))
-
-
-async def test_a_turn_given_to_one_who_has_just_left_goes_to_the_next() -> None:
-    turns = Turns()
-    await turns.take(urgent=False)
-    leaving = asyncio.create_task(turns.take(urgent=False))
-    staying = asyncio.create_task(turns.take(urgent=False))
-    await asyncio.sleep(0)
-    leaving.cancel()
-    turns.give()
-    with pytest.raises(asyncio.CancelledError):
-        await leaving
-    async with asyncio.timeout(SOON):
-        await staying
-
-
-async def test_a_turn_that_came_too_late_is_passed_on() -> None:
-    turns = Turns()
-    await turns.take(urgent=False)
-    leaving = asyncio.create_task(turns.take(urgent=False))
-    staying = asyncio.create_task(turns.take(urgent=False))
-    await asyncio.sleep(0)
-    turns.give()
-    leaving.cancel()
-    with pytest.raises(asyncio.CancelledError):
-        await leaving
-    async with asyncio.timeout(SOON):
-        await staying

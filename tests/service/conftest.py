@@ -42,6 +42,7 @@ def settings(tmp_path_factory: pytest.TempPathFactory) -> Settings:
         load_settings(shipped("gripperd.yaml"), {}),
         http=Http(host="127.0.0.1", port=0),
         runtime_dir=tmp_path_factory.mktemp("run"),
+        state_dir=tmp_path_factory.mktemp("state"),
     )
 
 
