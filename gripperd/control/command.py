@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from gripperd.control.profile import Mode, Profile
+from gripperd.errors import GripperdError
 from gripperd.signals import Quality
 
 
@@ -96,6 +97,11 @@ CANCELLED = Failure(category="cancelled", code="cancelled", message="cancelled")
 OBJECT_HELD = Failure(
     category="precondition", code="object-held", message="an object is held by then"
 )
+
+
+def no_answer(error: GripperdError) -> Failure:
+    """The model has no answer to what the sensors say."""
+    return Failure(category="fault", code="no-answer", message=str(error))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

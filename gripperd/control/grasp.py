@@ -202,6 +202,10 @@ class Grasp:
         return None
 
     def _build(self, measured: Measurement, dt: float) -> Outcome | None:
+        if self._strong_enough():
+            # The model asks for more than it takes: what is felt decides.
+            self.rest(measured)
+            self._goal = self.ramp.current
         if not self.ramp.towards(self._goal, self.order.profile.ramp, dt):
             return None
         self._dwell += dt
@@ -211,6 +215,17 @@ class Grasp:
             self._prove(measured)
             return None
         return self._correct(measured, dt)
+
+    def _strong_enough(self) -> bool:
+        """Whether a force target is reached before the current that should give it."""
+        force = self._force.now.value
+        return (
+            self.order.mode is Mode.FORCE
+            and self._force.measured
+            and self.ramp.current < self._goal
+            and force is not None
+            and force >= self.order.target
+        )
 
     def _correct(self, measured: Measurement, dt: float) -> Outcome | None:
         target, force = self.order.target, self._force.filtered or 0.0
@@ -260,7 +275,7 @@ class Grasp:
     def _over_limit(self) -> bool:
         force = self._force.now.value
         highest = self.order.profile.damage_force / TRIP_MARGIN
-        return self._force.measured and force is not None and force > highest
+        return force is not None and force > highest
 
     def _reduce(self) -> None:
         """Take the force back to the safe side: venting would drop the object."""

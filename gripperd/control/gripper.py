@@ -14,6 +14,7 @@ from gripperd.control.command import (
     Failure,
     GraspOrder,
     Status,
+    no_answer,
 )
 from gripperd.control.evaluation import check
 from gripperd.control.execution import Ending, Execution
@@ -37,10 +38,8 @@ class Gripper:
 
     Parameters
     ----------
-    name
+    name, chain
         As in the configuration.
-    chain
-        Its model.
     auto_enable
         Enable by itself after attaching; never moves.
     identify
@@ -220,8 +219,13 @@ class Gripper:
         if command.order is not None and self.grip is Grip.HOLDING:
             self.ledger.close(command, now.wall, failure=OBJECT_HELD)
             return
+        current = self._output.current
+        try:
+            self._execution = Execution(command, self.chain, current, now.wall)
+        except GripperdError as error:
+            self.ledger.close(command, now.wall, failure=no_answer(error))
+            return
         self.machine = after(self.machine, Event.START)
-        self._execution = Execution(command, self.chain, self._output.current, now.wall)
         self.ledger.put(self._execution.command)
         self.grip = self._execution.grip
         self._holding = None
@@ -232,9 +236,7 @@ class Gripper:
         try:
             ending = execution.step(measured, dt)
         except GripperdError as error:
-            # The model has no answer to what the sensors say: rest, and say so.
-            failure = Failure(category="fault", code="no-answer", message=str(error))
-            self._interrupt(failure, now)
+            self._interrupt(no_answer(error), now)
             return
         self._output.current = execution.motion.ramp.current
         self.ledger.put(execution.command)

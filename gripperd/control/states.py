@@ -74,7 +74,9 @@ _ONLINE = {
 TRANSITIONS: Mapping[Machine, Mapping[Event, Machine]] = MappingProxyType(
     {
         Machine.OFFLINE: {Event.LINK_UP: Machine.ATTACHING},
-        Machine.ATTACHING: _ONLINE | {Event.ADOPT: Machine.DISABLED},
+        # Before it is known what is there, a stop has nothing to freeze.
+        Machine.ATTACHING: _ONLINE
+        | {Event.ADOPT: Machine.DISABLED, Event.STOP: Machine.ATTACHING},
         Machine.DISABLED: _ONLINE
         | {
             Event.ENABLE: Machine.READY,

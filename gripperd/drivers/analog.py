@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gripperd.drivers.bus import Bus
+from gripperd.errors import DeviceRefused
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.protocol.modbus import Read, Table, Write
 from gripperd.protocol.modules import InputModule, OutputModule
@@ -84,9 +85,12 @@ class AnalogRig:
         if wiring is None or not wiring.sensors:
             return {}
         highest = max(sensor.channel for sensor in wiring.sensors.values())
-        counts = await self._bus.ask(
-            Read(wiring.unit, Table.INPUT, wiring.module.address, highest + 1)
-        )
+        request = Read(wiring.unit, Table.INPUT, wiring.module.address, highest + 1)
+        try:
+            counts = await self._bus.ask(request)
+        except DeviceRefused as error:
+            # The line is sound: without its sensors the valve can still be driven.
+            return {name: Reading.bad(str(error)) for name in wiring.sensors}
         return {
             name: sensor.scale.reading(wiring.module.decode(counts[sensor.channel]))
             for name, sensor in wiring.sensors.items()

@@ -8,12 +8,15 @@ from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 
 import msgspec
+import structlog
 
 from gripperd.errors import BadReply, GripperdError, Refused
 from gripperd.link.frames import Answer, Ask, decode, encode, failed, frame, read_frame
 
 Respond = Callable[[msgspec.Raw], Awaitable[object]]
 """Decodes a request, does it, returns what :func:`frames.encode` can encode."""
+
+log = structlog.get_logger()
 
 NOTHING = msgspec.Raw(encode(None))
 
@@ -24,7 +27,7 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
 
     The socket is the user's own: whoever may open it may move the gripper.
     """
-    _make_way(path)
+    await _make_way(path)
     clients: set[asyncio.Task[None]] = set()
 
     async def connected(reader: StreamReader, writer: StreamWriter) -> None:
@@ -53,14 +56,30 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
         _clear(path, ours)
 
 
-def _make_way(path: Path) -> None:
+async def _make_way(path: Path) -> None:
     """Leave no socket of an earlier life, and a folder that is the user's alone."""
-    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    if path.is_socket():
-        path.unlink()
-    elif path.exists():
+    _make_folder(path.parent)
+    try:
+        _, writer = await asyncio.open_unix_connection(path)
+    except FileNotFoundError:
+        return
+    except ConnectionRefusedError:
+        _remove_socket(path)
+        return
+    writer.close()
+    message = f"another process answers on {path}"
+    raise Refused(message, code="already-running", hints=("stop it first",))
+
+
+def _make_folder(folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+
+
+def _remove_socket(path: Path) -> None:
+    if not path.is_socket():
         message = f"{path} is in the way: it is no socket, so it is not removed"
         raise Refused(message, code="path-taken")
+    path.unlink()
 
 
 def _clear(path: Path, ours: tuple[int, int] | None) -> None:
@@ -99,5 +118,8 @@ async def _answer(ask: Ask, writer: StreamWriter, respond: Respond) -> None:
         answer = Answer(ask.id, msgspec.Raw(encode(await respond(ask.body))))
     except GripperdError as error:
         answer = Answer(ask.id, NOTHING, failed(error))
+    except Exception as error:
+        log.exception("a request failed")
+        answer = Answer(ask.id, NOTHING, failed(GripperdError(f"defect: {error!r}")))
     if not writer.is_closing():
         writer.write(frame(answer))

@@ -142,5 +142,5 @@ def test_an_unusable_configuration_ends_with_78(tmp_path: Path) -> None:
         ended = gripperd(*command, str(settings))
         assert ended.returncode == 78
         assert ended.stderr == (
-            f"error: {settings}:31: grippers.g0.rate_Hz: 5000 Hz is above 500 Hz\n"
+            f"error: {settings}:36: grippers.g0.rate_Hz: 5000 Hz is above 500 Hz\n"
         )

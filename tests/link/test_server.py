@@ -191,14 +191,39 @@ async def test_a_client_that_leaves_in_the_middle_harms_nobody(
         assert await client.ask(Say("egg"), str) == "done"
 
 
-async def test_an_overlapping_restart_leaves_the_newer_one_reachable(
+async def test_a_second_server_does_not_take_the_socket_of_the_first(
     socket_path: Path,
 ) -> None:
-    old = serve(socket_path, failing(errors.LinkError("old")))
-    await old.__aenter__()
     async with serve(socket_path, shout), asking(socket_path) as client:
-        await old.__aexit__(None, None, None)
+        with pytest.raises(errors.Refused, match="another process answers"):
+            async with serve(socket_path, failing(errors.LinkError("second"))):
+                pass
         assert await client.ask(Say("egg"), str) == "EGG"
+
+
+async def test_the_socket_of_a_dead_server_is_taken_over(socket_path: Path) -> None:
+    socket_path.parent.mkdir()
+    with socket.socket(socket.AF_UNIX) as dead:
+        dead.bind(str(socket_path))
+    async with serve(socket_path, shout), asking(socket_path) as client:
+        assert await client.ask(Say("egg"), str) == "EGG"
+
+
+async def test_a_defect_ends_one_request_and_no_other(socket_path: Path) -> None:
+    let_go = asyncio.Event()
+
+    async def clumsy(body: msgspec.Raw) -> object:
+        if decode(body, Say).text == "wait":
+            await let_go.wait()
+            return "done"
+        raise ZeroDivisionError
+
+    async with serve(socket_path, clumsy), asking(socket_path) as client:
+        waiting = asyncio.create_task(client.ask(Say("wait"), str, SOON))
+        with pytest.raises(errors.LinkError, match="ZeroDivisionError"):
+            await client.ask(Say("divide"), str, SOON)
+        let_go.set()
+        assert await waiting == "done"
 
 
 @pytest.fixture
