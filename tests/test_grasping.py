@@ -264,6 +264,7 @@ def test_what_ran_is_told_phase_by_phase(http: httpx.Client) -> None:
         "touch",
         "build",
         "verify",
+        "held",
     ]
 
 

@@ -7,7 +7,7 @@ from contextlib import asynccontextmanager, suppress
 from typing import cast
 
 from gripperd.bench.modules import Modules
-from gripperd.errors import BadReply
+from gripperd.errors import BadReply, Refused
 from gripperd.protocol import modbus
 
 TICK = 0.02
@@ -85,10 +85,20 @@ async def serve_bench(
     port: int,
     now: Callable[[], float] = time.monotonic,
 ) -> AsyncIterator[BenchServer]:
-    """Serve the rig on Modbus TCP while inside; port 0 takes a free one."""
+    """Serve the rig on Modbus TCP while inside; port 0 takes a free one.
+
+    Raises
+    ------
+    Refused
+        When it cannot listen there.
+    """
     bench = BenchServer(modules, now)
     loop = asyncio.get_running_loop()
-    server = await loop.create_server(lambda: _Connection(bench), host, port)
+    try:
+        server = await loop.create_server(lambda: _Connection(bench), host, port)
+    except OSError as error:
+        message = f"the bench cannot listen on {host}:{port}: {error.strerror}"
+        raise Refused(message, code="port-taken") from error
     found, chosen = server.sockets[0].getsockname()[:2]
     bench.address = f"{found}:{chosen}"
     living = asyncio.create_task(bench.live())

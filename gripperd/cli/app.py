@@ -7,6 +7,7 @@ from typing import Annotated, NoReturn
 import typer
 from rich.console import Console
 
+from gripperd import __version__
 from gripperd.errors import ConfigError, GripperdError, InputError
 
 FAILED, WRONG_USE, UNUSABLE_CONFIGURATION = 1, 2, 78
@@ -15,8 +16,9 @@ FAILED, WRONG_USE, UNUSABLE_CONFIGURATION = 1, 2, 78
 app = typer.Typer(
     name="gripperd",
     help="Drives a gripper powered by a pneumatic artificial muscle.",
-    no_args_is_help=True,
     add_completion=False,
+    # Rich would take "[mm]" in a help text for a style.
+    rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -30,6 +32,22 @@ ConfigFile = Annotated[
         help="Configuration file; without one, the simulated bench.",
     ),
 ]
+
+
+@app.callback(invoke_without_command=True)
+def version(
+    context: typer.Context,
+    show: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Drives a gripper powered by a pneumatic artificial muscle."""
+    if show:
+        typer.echo(f"gripperd {__version__}")
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+        raise typer.Exit(WRONG_USE)
 
 
 def main() -> NoReturn:

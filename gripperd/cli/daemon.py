@@ -82,6 +82,7 @@ def check(
     ] = None,
 ) -> None:
     """Check a configuration with everything it refers to; exit 78 if unusable."""
+    from gripperd.cli.doubts import doubts
     from gripperd.config import load_settings
 
     settings = load_settings(config)
@@ -89,6 +90,8 @@ def check(
     for name, gripper in settings.grippers.items():
         typer.echo(f"  gripper {name}: model {gripper.chain.name}")
     typer.echo(f"  profiles: {', '.join(settings.profiles)}")
+    for warning in doubts(settings):
+        typer.echo(f"  warning: {warning}")
 
 
 def _host_and_port(option: str, address: str | None) -> tuple[str, int] | None:

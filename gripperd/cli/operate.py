@@ -7,7 +7,7 @@ import httpx
 import typer
 
 from gripperd.cli.app import app
-from gripperd.errors import GripperdError, LinkLost
+from gripperd.errors import GripperdError, InputError, LinkLost
 
 Url = Annotated[
     str, typer.Option("--url", envvar="GRIPPERD_URL", help="Where the daemon serves.")
@@ -38,9 +38,13 @@ def status(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) 
         typer.echo(json.dumps(state))
         return
     typer.echo(f"{state['name']}: {state['machine']}, {state['grip']}")
+    if state["link"] != "up":
+        typer.echo(f"  link: {state['link']}")
     for key, reading in state["measured"].items():
         value = "-" if reading["value"] is None else f"{reading['value']:.2f}"
-        note = "" if reading["quality"] == "good" else f"  {reading['quality']}"
+        note = ""
+        if reading["quality"] != "good":
+            note = f"  {reading['quality']}: {reading.get('cause', '')}"
         typer.echo(f"  {key:<14}{value:>10}{note}")
 
 
@@ -56,6 +60,9 @@ def grasp(
     as_json: Json = False,
 ) -> None:
     """Grasp an object and wait for the outcome; exit 1 unless it is held."""
+    if current is not None and force is not None:
+        message = "give --current or --force, not both"
+        raise InputError(message, key="--force")
     params: dict[str, Any] = {"profile": profile}
     if current is not None:
         params["current_mA"] = current
@@ -73,9 +80,25 @@ def release(
 
 
 @app.command()
+def enable(url: Url = DEFAULT_URL, gripper: Name = None) -> None:
+    """Allow commands after a start or a disable; nothing moves."""
+    _switch("enable", url, gripper)
+
+
+@app.command()
+def disable(url: Url = DEFAULT_URL, gripper: Name = None) -> None:
+    """Allow no more commands; what is held stays held."""
+    _switch("disable", url, gripper)
+
+
+@app.command()
 def stop(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) -> None:
     """Freeze at once; what is held stays held."""
-    state = _ask("POST", f"{url}/v1/grippers/{_name(url, gripper)}/stop")
+    _switch("stop", url, gripper, as_json=as_json)
+
+
+def _switch(what: str, url: str, gripper: str | None, *, as_json: bool = False) -> None:
+    state = _ask("POST", f"{url}/v1/grippers/{_name(url, gripper)}/{what}")
     typer.echo(json.dumps(state) if as_json else f"{state['machine']}, {state['grip']}")
 
 
@@ -94,7 +117,7 @@ def _command(
 
 def _summary(command: dict[str, Any]) -> str:
     result, error = command["result"], command["error"]
-    if result is None or result["force_N"] is None:
+    if result is None or result["slip_margin"] is None:
         line = str(command["status"])
     else:
         line = f"{result['outcome']}: {result['force_N']:.1f} N per jaw"
@@ -103,11 +126,10 @@ def _summary(command: dict[str, Any]) -> str:
                 f", predicted {result['predicted_force_N']:.1f}"
                 f" ± {result['predicted_std_N']:.1f} N"
             )
-        if result["slip_margin"] is not None:
-            line += (
-                f"; slip margin {result['slip_margin']:.1f},"
-                f" crush margin {result['crush_margin']:.1f}"
-            )
+        line += (
+            f"; slip margin {result['slip_margin']:.1f},"
+            f" crush margin {result['crush_margin']:.1f}"
+        )
     return line if error is None else f"{line}\n{error['code']}: {error['message']}"
 
 
@@ -127,7 +149,7 @@ def _ask(
             method, url, json=body, headers=headers, timeout=wait + MARGIN
         )
     except httpx.TransportError as error:
-        message = f"no daemon answers at {url}: {error}"
+        message = f"no daemon answers at {url}: {error}; 'gripperd run' starts one"
         raise LinkLost(message) from error
     document: dict[str, Any] = answer.json()
     if answer.is_error:

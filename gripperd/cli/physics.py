@@ -2,6 +2,7 @@
 
 import json
 from datetime import UTC, datetime
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -63,7 +64,7 @@ def predict(
         "current_mA": round(found.current / MILLI, 4),
         "diameter_mm": diameter,
         "force_N": round(found.grip_force, 3),
-        "force_std_N": round(found.grip_std, 3),
+        "std_N": round(found.grip_std, 3),
         "pressure_kPa": round(found.pressure / KILO, 3),
         "opening_mm": round(found.opening / MILLI, 3),
         "contraction": round(found.contraction, 5),
@@ -76,7 +77,7 @@ def predict(
         typer.echo(json.dumps(facts))
         return
     typer.echo(
-        f"{facts['force_N']:.1f} N per jaw, ± {facts['force_std_N']:.1f} N (1 sigma),"
+        f"{facts['force_N']:.1f} N per jaw, ± {facts['std_N']:.1f} N (1 sigma),"
         f" on {diameter:g} mm at {facts['current_mA']:.2f} mA"
         f" ({facts['pressure_kPa']:.1f} kPa)"
     )
@@ -103,12 +104,15 @@ def reproduce(
     for claim in report.claims:
         table.add_row(claim.statement, claim.verdict, claim.finding)
     Console().print(table)
-    typer.echo(f"wrote {folder / 'index.html'}")
+    typer.echo(f"wrote {(folder / 'index.html').resolve().as_uri()}")
 
 
 def _above_zero(name: str, value: float, unit: str) -> float:
-    if not 0 < value < float("inf"):
-        message = f"{name} {value:g} {unit} is not above 0 {unit} and finite"
+    if not isfinite(value):
+        message = f"{name} {value:g} is no finite number ({unit})"
+        raise InputError(message, key=name)
+    if value <= 0:
+        message = f"{name} {value:g} {unit} is not above 0 {unit}"
         raise InputError(message, key=name)
     return value
 

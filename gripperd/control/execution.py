@@ -10,6 +10,7 @@ from gripperd.control.command import (
     Status,
 )
 from gripperd.control.grasp import Grasp
+from gripperd.control.meaning import doubt, failure
 from gripperd.control.release import Release
 from gripperd.control.states import Grip
 from gripperd.model import Chain
@@ -27,16 +28,6 @@ GRIP_AFTER = {
     Outcome.UNKNOWN: Grip.UNKNOWN,
 }
 """What the jaws hold after a grasp; an unwanted object is not let go of unasked."""
-
-MEANING = {
-    Outcome.NO_OBJECT: "the jaws closed without meeting an object",
-    Outcome.TOO_SMALL: "the object is smaller than its profile allows; held lightly",
-    Outcome.TOO_LARGE: "the object is larger than its profile allows; held lightly",
-    Outcome.FORCE_NOT_REACHED: "the grip force is not what was asked for",
-    Outcome.SLIPPED: "the object slipped out of the grip",
-    Outcome.CRUSH_LIMIT: "the force came too close to the damage limit and was reduced",
-    Outcome.UNKNOWN: "no sensor could tell what is between the jaws",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,21 +74,19 @@ class Execution:
 
     def _grasped(self, outcome: Outcome, measured: Measurement) -> Ending:
         assert isinstance(self.motion, Grasp)
-        failure = None
-        if outcome is not Outcome.HELD:
-            failure = Failure(
-                category="outcome", code=outcome, message=MEANING[outcome]
-            )
         result = self.motion.result(outcome, measured)
-        return Ending(GRIP_AFTER[outcome], result, failure)
+        line = f"{self.motion.elapsed:.2f} s: {outcome}"
+        log = (*self.command.log, line, *filter(None, [doubt(result)]))
+        self.command = replace(self.command, log=log)
+        return Ending(GRIP_AFTER[outcome], result, failure(result, self.motion.order))
 
 
 def _released(*, opened: bool) -> Ending:
     if opened:
         return Ending(Grip.RELEASED)
-    failure = Failure(
+    stuck = Failure(
         category="outcome",
         code="not_released",
         message="the current is at the live zero, but pressure or force remain",
     )
-    return Ending(Grip.UNKNOWN, failure=failure)
+    return Ending(Grip.UNKNOWN, failure=stuck)

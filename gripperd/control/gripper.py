@@ -21,7 +21,7 @@ from gripperd.control.execution import Ending, Execution
 from gripperd.control.ledger import Key, Ledger
 from gripperd.control.output import Output
 from gripperd.control.snapshot import GripperState, Instant
-from gripperd.control.states import TRANSITIONS, Event, Grip, Machine, after
+from gripperd.control.states import Event, Grip, Machine, after, possible
 from gripperd.control.watch import GripWatch
 from gripperd.errors import GripperdError, Refused
 from gripperd.model import Chain
@@ -55,7 +55,7 @@ class Gripper:
         self.grip = Grip.UNKNOWN
         self.ledger = Ledger(name, identify)
         self._auto_enable = auto_enable
-        self._link = "not connected yet"
+        self.link = "not connected yet"
         self._output = Output()
         self._measured: Measurement | None = None
         self._watch = GripWatch(chain)
@@ -145,19 +145,19 @@ class Gripper:
             name=self.name,
             machine=self.machine,
             grip=self.grip,
-            available_transitions=tuple(TRANSITIONS[self.machine]),
+            available_transitions=possible(self.machine),
             adopted=self._output.adopted,
             current=self._output.current if self.attached else None,
             measured=measured,
             age=None if measured is None else now.monotonic - measured.time,
             command=None if running is None else running.command.id,
             holding=self._holding,
-            link=self._link,
+            link=self.link,
         )
 
     def link_lost(self, why: str, now: Instant) -> None:
         """Nothing can be read or written; the module keeps the last current."""
-        self._link = why
+        self.link = why
         if self.machine is Machine.OFFLINE:
             return
         self.machine = after(self.machine, Event.LINK_LOST)
@@ -172,7 +172,7 @@ class Gripper:
         The current to write, None where it stays. [A]
         """
         self._measured = measured
-        self._link = "up"
+        self.link = "up"
         self._watch.update(measured, dt)
         match self.machine:
             case Machine.OFFLINE:

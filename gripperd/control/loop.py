@@ -3,13 +3,19 @@
 import asyncio
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from gripperd.control.command import Command, GraspOrder
+import structlog
+
+from gripperd.control.command import Command, GraspOrder, Status
 from gripperd.control.gripper import Gripper
-from gripperd.control.ledger import Key
+from gripperd.control.ledger import LONGEST_QUEUE, Key
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.drivers.analog import AnalogRig
 from gripperd.errors import LinkError
+
+if TYPE_CHECKING:
+    from gripperd.control.states import Grip, Machine
 
 
 def clock() -> Instant:
@@ -47,12 +53,16 @@ class Loop:
         self._period = period
         self._now = now
         self._news = asyncio.Event()
+        self._log = structlog.get_logger().bind(gripper=gripper.name)
+        self._told: tuple[Machine, Grip] | None = None
+        self._statuses: dict[str, Status] = {}
 
     async def run(self) -> None:
         """Control for ever; each period ends at an absolute deadline."""
         last = deadline = self._now().monotonic
         while True:
             last = await self._step(last)
+            self._tell()
             self._news.set()
             self._news = asyncio.Event()
             deadline += self._period
@@ -74,6 +84,21 @@ class Loop:
         except LinkError as error:
             self.gripper.link_lost(str(error), self._now())
         return now.monotonic
+
+    def _tell(self) -> None:
+        """Log what has changed: states, and commands that began or ended."""
+        gripper = self.gripper
+        state = (gripper.machine, gripper.grip)
+        if state != self._told:
+            self._told = state
+            self._log.info(
+                "state", machine=gripper.machine, grip=gripper.grip, link=gripper.link
+            )
+        newest = gripper.ledger.newest(LONGEST_QUEUE + 1)
+        for command in reversed(newest):
+            if self._statuses.get(command.id) is not command.status:
+                self._log.info("command", **_summary(command))
+        self._statuses = {command.id: command.status for command in newest}
 
     def state(self) -> GripperState:
         """Snapshot of the gripper."""
@@ -125,3 +150,18 @@ class Loop:
         except LinkError as error:
             self.gripper.link_lost(str(error), self._now())
             raise
+
+
+def _summary(command: Command) -> dict[str, object]:
+    facts: dict[str, object] = {
+        "id": command.id[:8],
+        "type": command.kind,
+        "status": command.status,
+    }
+    if command.order is not None:
+        facts["profile"] = command.order.profile.name
+    if command.result is not None and command.result.force is not None:
+        facts["force_N"] = round(command.result.force, 2)
+    if command.error is not None:
+        facts["reason"] = command.error.message
+    return facts

@@ -112,7 +112,7 @@ TRANSITIONS: Mapping[Machine, Mapping[Event, Machine]] = MappingProxyType(
 """Every allowed pair; a pair that is not listed is refused."""
 
 
-_ASKED = {
+REQUESTS = {
     Event.START: "a command",
     Event.ENABLE: "enable",
     Event.DISABLE: "disable",
@@ -120,6 +120,11 @@ _ASKED = {
     Event.RESET: "reset",
 }
 """What clients can ask for, in their words; the rest happens by itself."""
+
+
+def possible(state: Machine) -> tuple[Event, ...]:
+    """What a client can ask for in a state."""
+    return tuple(event for event in REQUESTS if event in TRANSITIONS[state])
 
 
 def after(state: Machine, event: Event) -> Machine:
@@ -132,13 +137,13 @@ def after(state: Machine, event: Event) -> Machine:
     """
     allowed = TRANSITIONS[state]
     if event not in allowed:
-        possible = [words for asked, words in _ASKED.items() if asked in allowed]
+        words = ", ".join(REQUESTS[asked] for asked in possible(state))
         message = (
-            f"{_ASKED.get(event, event)} is not possible while the gripper is {state}"
+            f"{REQUESTS.get(event, event)} is not possible while the gripper is {state}"
         )
         raise Refused(
             message,
             code="wrong-state",
-            hints=(f"possible now: {', '.join(possible) or 'nothing, only waiting'}",),
+            hints=(f"possible now: {words or 'nothing, only waiting'}",),
         )
     return allowed[event]

@@ -10,7 +10,7 @@ from typing import Any
 import uvicorn
 from starlette.types import ASGIApp
 
-from gripperd.errors import ConfigError, Refused
+from gripperd.errors import Refused
 
 GRACE = 2
 """How long requests in flight may take when the server ends. [s]"""
@@ -49,9 +49,7 @@ async def serve(
     Raises
     ------
     Refused
-        When another program listens there.
-    ConfigError
-        When nobody can listen there.
+        When it cannot listen there.
     """
     listening = await _bound(host, port)
     url = _url(listening)
@@ -83,12 +81,12 @@ async def _bound(host: str, port: int) -> socket.socket:
         return _listening(*found[0][:3], address=found[0][4])
     except OSError as error:
         where = f"http.host = {host}, http.port = {port}"
+        reason = f"cannot listen there: {error.strerror}"
         if error.errno == errno.EADDRINUSE:
-            # Not the configuration's fault: the other program may go away.
-            message = f"{where}: another program listens there"
-            raise Refused(message, code="port-taken") from error
-        message = f"{where}: cannot listen there: {error.strerror}"
-        raise ConfigError(message) from error
+            reason = "another program listens there"
+        # Not the configuration's fault: the other program may go away, the address
+        # may come up.
+        raise Refused(f"{where}: {reason}", code="cannot-listen") from error
 
 
 def _listening(

@@ -119,8 +119,10 @@ def _path(body: object, steps: KeyPath, kind: str) -> KeyPath:
 def _detail(error: "ErrorDetails", path: KeyPath, request: Request) -> str:
     kind = error["type"]
     if kind == "extra_forbidden":
-        hint = did_you_mean(str(path[-1]), _keys(request, path[:-1]))
-        return f"is not a key here; {hint}"
+        known = set(_keys(request, path[:-1]))
+        if path[-1] in known:
+            return "does not go with this type"
+        return f"is not a key here; {did_you_mean(str(path[-1]), known)}"
     if kind in WHOLE_BODY and not path:
         return ABSENT_BODY
     if kind == "union_tag_not_found":

@@ -1,12 +1,15 @@
 """The commands a person types, run for real."""
 
 import json
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
 import pytest
 
+from gripperd import __version__
+from gripperd.config import shipped
 from tests.daemon import Daemon, gripperd, running_daemon
 
 
@@ -34,7 +37,10 @@ def test_predict_inverts_itself() -> None:
     [
         (["--current", "30", "--diameter", "65"], "30.00 mA is outside 4 to 20 mA"),
         (["--current", "10.7", "--diameter", "-41"], "-41 mm is not above 0 mm"),
-        (["--current", "nan", "--diameter", "41"], "nan mA is not above 0 mA"),
+        (
+            ["--current", "nan", "--diameter", "41"],
+            "--current nan is no finite number (mA)",
+        ),
         (["--diameter", "41"], "either --current in mA or --force in N"),
         (["--current", "10.7", "--diameter", "90"], "they open 85 mm"),
         (["--current", "10,7", "--diameter", "65"], "Invalid value for '--current'"),
@@ -73,7 +79,45 @@ def test_a_grasp_from_the_command_line(daemon: Daemon) -> None:
     assert json.loads(released.stdout)["status"] == "succeeded"
     missed = gripperd("grasp", "apple", GRIPPERD_URL=url)
     assert missed.returncode == 1
-    assert "no_object: the jaws closed without meeting an object" in missed.stdout
+    assert "no_object: the jaws closed past 57.0 mm" in missed.stdout
+
+
+def test_enabling_and_disabling_moves_nothing(daemon: Daemon) -> None:
+    url = daemon.url
+    before = httpx.get(f"{url}/v1/bench").json()["current_mA"]
+    assert gripperd("disable", GRIPPERD_URL=url).stdout.startswith("disabled, ")
+    refused = gripperd("grasp", "apple", GRIPPERD_URL=url)
+    assert refused.returncode == 1
+    assert "a command is not possible while the gripper is disabled" in refused.stderr
+    assert "possible now: enable" in refused.stderr
+    assert gripperd("enable", GRIPPERD_URL=url).stdout.startswith("ready, ")
+    assert httpx.get(f"{url}/v1/bench").json()["current_mA"] == before
+
+
+def test_help_names_units_and_the_version_is_told() -> None:
+    assert "[mm]" in gripperd("predict", "--help").stdout
+    assert gripperd("--version").stdout == f"gripperd {__version__}\n"
+
+
+def test_what_would_be_refused_later_is_warned_of(tmp_path: Path) -> None:
+    shutil.copytree(shipped(), tmp_path / "config")
+    egg = tmp_path / "config" / "profiles" / "raw_egg.yaml"
+    egg.write_text(egg.read_text().replace("force_N: 12", "force_N: 34"))
+    settings = tmp_path / "config" / "gripperd.yaml"
+    text = settings.read_text().replace("opening_mm: [0, 100]", "opening_mm: [0, 50]")
+    settings.write_text(text)
+    said = gripperd("config", "check", str(settings))
+    assert said.returncode == 0
+    assert "warning: raw_egg on g0: 34.00 N per jaw is over 26.92 N" in said.stdout
+    assert "ends at 50 mm, the jaws open to 85 mm" in said.stdout
+
+
+def test_a_bench_that_cannot_listen_says_so_in_a_line(daemon: Daemon) -> None:
+    host, port = daemon.bench
+    said = gripperd("bench", "--tcp", f"{host}:{port}")
+    assert said.returncode == 1
+    assert f"the bench cannot listen on {host}:{port}" in said.stderr
+    assert "Traceback" not in said.stderr
 
 
 def test_without_a_daemon_it_says_so() -> None:

@@ -9,7 +9,7 @@ from gripperd.bench.sensors import Channel
 from gripperd.control.command import GraspOrder, Outcome, Status
 from gripperd.control.gripper import Gripper
 from gripperd.control.profile import Mode, Profile
-from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.states import Grip, Machine
 from gripperd.errors import Refused
 from gripperd.model import Chain
 from gripperd.signals import Reading
@@ -23,7 +23,7 @@ def test_before_anything_is_known_the_state_says_so(stage: Stage) -> None:
     state = stage.state
     assert (state.machine, state.grip) == (Machine.OFFLINE, Grip.UNKNOWN)
     assert (state.current, state.measured, state.age) == (None, None, None)
-    assert state.available_transitions == (Event.LINK_UP,)
+    assert state.available_transitions == ()
 
 
 @pytest.mark.parametrize("current", [0.0, 0.004, 0.0107, 0.020])

@@ -6,7 +6,7 @@ import httpx
 import pytest
 from starlette.responses import PlainTextResponse
 
-from gripperd.errors import ConfigError, Refused
+from gripperd.errors import Refused
 from gripperd.service.server import serve
 
 from .conftest import Report, running
@@ -42,5 +42,5 @@ async def test_a_busy_port_is_one_clear_line() -> None:
 @pytest.mark.anyio
 async def test_an_address_of_another_machine_is_refused() -> None:
     # 192.0.2.0/24 is for documentation (RFC 5737).
-    with pytest.raises(ConfigError, match=r"http\.host = 192\.0\.2\.1"):
+    with pytest.raises(Refused, match=r"http\.host = 192\.0\.2\.1"):
         await serve(APP, "192.0.2.1", 0, print)
