@@ -52,19 +52,30 @@ def eventually() -> Callable[[Callable[[], bool]], Awaitable[None]]:
 
 
 @pytest.fixture(scope="session")
-def chain() -> Chain:
-    """The reference rig: the paper's muscle on the gripper chosen for it."""
-    muscle = Muscle(
-        rest_length=0.25,
-        diameter=0.02,
+def muscle() -> Muscle:
+    """The paper's muscle."""
+    return Muscle(
+        rest_length=0.250,
+        diameter=0.020,
         braid_angle=radians(25),
         wall_thickness=0.002,
         elastic_modulus=1.3e6,
         friction_coefficient=0.002,
     )
+
+
+@pytest.fixture(scope="session")
+def static(muscle: Muscle) -> StaticMuscle:
+    """The paper's static model with eq. (6) rebraced."""
+    return StaticMuscle(muscle, (RubberElasticity(), BraidFriction()))
+
+
+@pytest.fixture(scope="session")
+def chain(static: StaticMuscle) -> Chain:
+    """The reference rig: the paper's muscle on the gripper chosen for it."""
     return Chain(
         name="reference",
-        static=StaticMuscle(muscle, (RubberElasticity(), BraidFriction())),
+        static=static,
         regulator=Regulator(
             current_low=0.004,
             current_high=0.020,

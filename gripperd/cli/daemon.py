@@ -1,6 +1,7 @@
 """Commands that start the daemon or parts of it, and check its configuration."""
 
 import logging
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -68,11 +69,15 @@ def service(config: ConfigFile = None, http: Http = None) -> None:
     """Run the service process alone: REST in front of control."""
     from gripperd.cli import serving
     from gripperd.cli.processes import run_process
-    from gripperd.config import load_settings
+    from gripperd.config import KEYLESS, is_loopback, load_settings
 
     settings = load_settings(config)
     _log_to_stderr()
-    run_process(serving.service(settings, _host_and_port("--http", http)))
+    address = _host_and_port("--http", http)
+    if address is not None and not is_loopback(address[0]):
+        message = f"--http {http!r} is not a loopback address; {KEYLESS}"
+        raise InputError(message, key="--http")
+    run_process(serving.service(settings, address))
 
 
 @config_app.command()
@@ -101,17 +106,18 @@ def _host_and_port(option: str, address: str | None) -> tuple[str, int] | None:
     if not host or not port.isdecimal() or int(port) > 65535:
         message = f"{option} {address!r} is not HOST:PORT, such as 127.0.0.1:15020"
         raise InputError(message, key=option)
-    return host, int(port)
+    return host.removeprefix("[").removesuffix("]"), int(port)
 
 
 def _log_to_stderr() -> None:
     """Plain lines; on a terminal in colour, without time stamps in the journal."""
-    on_terminal = sys.stderr.isatty()
+    stamp = [structlog.processors.TimeStamper(fmt="%H:%M:%S")]
     structlog.configure(
         processors=[
             structlog.processors.add_log_level,
-            structlog.processors.TimeStamper(fmt="%H:%M:%S"),
-            structlog.dev.ConsoleRenderer(colors=on_terminal),
+            # The journal keeps its own time; systemd tells that it listens.
+            *(() if os.environ.get("JOURNAL_STREAM") else stamp),
+            structlog.dev.ConsoleRenderer(colors=sys.stderr.isatty()),
         ],
         wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
         logger_factory=structlog.PrintLoggerFactory(sys.stderr),

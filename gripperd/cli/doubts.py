@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from gripperd.config import GripperSettings, Settings
+from gripperd.config import GripperSettings, Settings, saved_profiles
 from gripperd.control.command import GraspOrder
 from gripperd.control.evaluation import evaluate
 from gripperd.control.profile import Mode, Profile
@@ -12,9 +12,12 @@ from gripperd.units import MILLI
 
 def doubts(settings: Settings) -> Iterator[str]:
     """Say what will be refused, or misread, once the daemon runs."""
+    saved = saved_profiles(settings.state_dir / "profiles")
+    yield from saved.complaints
+    profiles = {**saved.profiles, **settings.profiles}
     for name, gripper in settings.grippers.items():
         yield from _unreadable(name, gripper)
-        for profile in settings.profiles.values():
+        for profile in profiles.values():
             for reason in _refusals(profile, gripper):
                 yield f"{profile.name} on {name}: {reason}"
 

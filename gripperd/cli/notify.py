@@ -10,6 +10,8 @@ import socket
 from collections.abc import Mapping
 from pathlib import Path
 
+from gripperd.errors import ConfigError
+
 VARIABLE = "NOTIFY_SOCKET"
 
 
@@ -34,10 +36,21 @@ def notify(**facts: str | int) -> None:
 
 
 def listen(path: Path) -> socket.socket:
-    """Socket on which the processes started here report."""
-    path.unlink(missing_ok=True)
+    """Socket on which the processes started here report.
+
+    Raises
+    ------
+    ConfigError
+        Something else is in the way.
+    """
     receiver = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-    receiver.bind(str(path))
+    try:
+        path.unlink(missing_ok=True)
+        receiver.bind(str(path))
+    except OSError as error:
+        receiver.close()
+        message = f"{path} cannot be listened on: {error.strerror or error}"
+        raise ConfigError(message) from error
     receiver.setblocking(False)
     return receiver
 

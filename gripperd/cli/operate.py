@@ -2,12 +2,13 @@
 
 import json
 from typing import Annotated, Any
+from urllib.parse import quote
 
 import httpx
 import typer
 
 from gripperd.cli.app import app
-from gripperd.errors import GripperdError, InputError, LinkLost
+from gripperd.errors import BadReply, GripperdError, InputError, LinkLost
 
 Url = Annotated[
     str, typer.Option("--url", envvar="GRIPPERD_URL", help="Where the daemon serves.")
@@ -22,6 +23,12 @@ MARGIN = 5.0
 """Time for an answer beyond what the command itself may take. [s]"""
 
 
+STATE = frozenset({"name", "machine", "grip", "link", "measured"})
+COMMAND = frozenset({"status", "result", "error"})
+LIST = frozenset({"grippers"})
+"""Keys by which the answers of a daemon are told from those of something else."""
+
+
 class Problem(GripperdError):
     """The daemon says no; the message is its problem document."""
 
@@ -33,7 +40,7 @@ class Problem(GripperdError):
 @app.command()
 def status(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) -> None:
     """Show what the gripper does and measures."""
-    state = _ask("GET", f"{url}/v1/grippers/{_name(url, gripper)}")
+    state = _ask("GET", _where(url, gripper), STATE)
     if as_json:
         typer.echo(json.dumps(state))
         return
@@ -98,15 +105,15 @@ def stop(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) ->
 
 
 def _switch(what: str, url: str, gripper: str | None, *, as_json: bool = False) -> None:
-    state = _ask("POST", f"{url}/v1/grippers/{_name(url, gripper)}/{what}")
+    state = _ask("POST", f"{_where(url, gripper)}/{what}", STATE)
     typer.echo(json.dumps(state) if as_json else f"{state['machine']}, {state['grip']}")
 
 
 def _command(
     body: dict[str, Any], url: str, gripper: str | None, *, as_json: bool
 ) -> None:
-    path = f"{url}/v1/grippers/{_name(url, gripper)}/commands"
-    command = _ask("POST", path, body=body, wait=30)
+    path = f"{_where(url, gripper)}/commands"
+    command = _ask("POST", path, COMMAND, body=body, wait=30)
     if as_json:
         typer.echo(json.dumps(command))
     else:
@@ -133,25 +140,48 @@ def _summary(command: dict[str, Any]) -> str:
     return line if error is None else f"{line}\n{error['code']}: {error['message']}"
 
 
-def _name(url: str, gripper: str | None) -> str:
-    if gripper is not None:
-        return gripper
-    listing = _ask("GET", f"{url}/v1/grippers")
-    return str(listing["grippers"][0]["name"])
+def _where(url: str, gripper: str | None) -> str:
+    """URL of a gripper; of the first when none is named."""
+    grippers = f"{url.rstrip('/')}/v1/grippers"
+    if gripper is None:
+        gripper = str(_ask("GET", grippers, LIST)["grippers"][0]["name"])
+    return f"{grippers}/{quote(gripper, safe='', errors='surrogateescape')}"
 
 
 def _ask(
-    method: str, url: str, *, body: object = None, wait: int = 0
+    method: str, url: str, keys: frozenset[str], *, body: object = None, wait: int = 0
 ) -> dict[str, Any]:
+    answer = _answer(method, url, body, wait)
+    try:
+        document = answer.json()
+    except ValueError:
+        document = None
+    if answer.is_error and isinstance(document, dict):
+        raise Problem(document)
+    if not isinstance(document, dict) or not keys <= document.keys():
+        message = f"what answers at {url} is no gripperd: status {answer.status_code}"
+        raise BadReply(message)
+    return document
+
+
+def _answer(method: str, url: str, body: object, wait: int) -> httpx.Response:
     headers = {"Prefer": f"wait={wait}"} if wait else {}
     try:
-        answer = httpx.request(
-            method, url, json=body, headers=headers, timeout=wait + MARGIN
+        # A proxy of the environment has no business between here and the daemon.
+        return httpx.request(
+            method,
+            url,
+            json=body,
+            headers=headers,
+            timeout=wait + MARGIN,
+            trust_env=False,
         )
-    except httpx.TransportError as error:
+    except (httpx.InvalidURL, httpx.UnsupportedProtocol) as error:
+        message = f"--url: {url!r} is no address such as {DEFAULT_URL}: {error}"
+        raise InputError(message, key="--url") from error
+    except httpx.HTTPError as error:
         message = f"no daemon answers at {url}: {error}; 'gripperd run' starts one"
         raise LinkLost(message) from error
-    document: dict[str, Any] = answer.json()
-    if answer.is_error:
-        raise Problem(document)
-    return document
+    except ValueError as error:
+        message = f"this cannot be sent: {error}"
+        raise InputError(message) from error

@@ -24,13 +24,13 @@ from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Channel, Sensor, SensorSettings
 from gripperd.bench.server import serve_bench
 from gripperd.cli.notify import notify
-from gripperd.cli.supervisor import stop_requested
+from gripperd.cli.supervisor import SUPERVISED, stop_requested
 from gripperd.config import BenchBus, GripperSettings, Settings
 from gripperd.control.gripper import Gripper
 from gripperd.control.loop import Loop
 from gripperd.drivers.analog import AnalogRig
 from gripperd.drivers.bus import Bus, TcpAddress, open_bus
-from gripperd.errors import ConfigError
+from gripperd.errors import ConfigError, Refused
 from gripperd.link.bench import BenchDesk
 from gripperd.link.control import ControlDesk
 from gripperd.link.server import serve
@@ -46,9 +46,18 @@ log = structlog.get_logger()
 
 
 def run_process(main: Coroutine[Any, Any, None]) -> None:
-    """Run one process until it is asked to end, or its supervisor dies."""
-    if os.environ.get("GRIPPERD_SUPERVISED"):
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    """Run one process until it is asked to end, or its supervisor dies.
+
+    Raises
+    ------
+    Refused
+        Its supervisor is dead already.
+    """
+    try:
+        _end_with_supervisor()
+    except Refused:
+        main.close()
+        raise
 
     async def until_stopped() -> None:
         work = asyncio.create_task(main)
@@ -60,6 +69,17 @@ def run_process(main: Coroutine[Any, Any, None]) -> None:
         await asyncio.gather(work, return_exceptions=True)
 
     uvloop.run(until_stopped())
+
+
+def _end_with_supervisor() -> None:
+    supervisor = os.environ.get(SUPERVISED)
+    if not supervisor:
+        return
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    # Who died before the call above sends no signal.
+    if str(os.getppid()) != supervisor:
+        message = f"the supervisor, process {supervisor}, is not there any more"
+        raise Refused(message, code="orphaned")
 
 
 def bench_socket(settings: Settings) -> Path:

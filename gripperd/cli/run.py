@@ -3,6 +3,7 @@
 import asyncio
 import fcntl
 import os
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,15 +15,16 @@ from gripperd.cli.notify import notify
 from gripperd.cli.processes import simulated
 from gripperd.cli.supervisor import Child, StartFailed, stop_requested, supervise
 from gripperd.config import Settings
-from gripperd.errors import Refused
+from gripperd.errors import ConfigError, Refused
+from gripperd.link.folder import private_folder
 
-SUPERVISED = "GRIPPERD_SUPERVISED"
+LONGEST_SOCKET = "service.notify"
+"""The longest name among the sockets of the processes."""
 
 
 def run(settings: Settings, console: Console) -> int:
     """Run until a signal ends it; the exit status."""
-    settings.runtime_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
-    os.environ[SUPERVISED] = "1"
+    private_folder(settings.runtime_dir, LONGEST_SOCKET)
     with _alone(settings.runtime_dir):
         return uvloop.run(_run(settings, console))
 
@@ -90,11 +92,10 @@ def _status(work: "asyncio.Task[None]") -> int:
 @contextmanager
 def _alone(folder: Path) -> Iterator[None]:
     """Hold the folder's lock, so that two daemons never share sockets or hardware."""
-    with (folder / "lock").open("a+") as lock:
+    with os.fdopen(_opened(folder / "lock"), "r+") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
-            lock.seek(0)
             message = f"gripperd runs already in {folder} (pid {lock.read().strip()})"
             hints = ("stop it, or give this one another runtime_dir",)
             raise Refused(message, code="already-running", hints=hints) from error
@@ -102,3 +103,19 @@ def _alone(folder: Path) -> Iterator[None]:
         lock.write(str(os.getpid()))
         lock.flush()
         yield
+
+
+def _opened(lock: Path) -> int:
+    """Open a file of our own: what a link leads to would be emptied."""
+    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
+    try:
+        opened = os.open(lock, flags, 0o600)
+    except OSError as error:
+        message = f"{lock} cannot be used as a lock: {error.strerror}"
+        raise ConfigError(message) from error
+    found = os.fstat(opened)
+    if not stat.S_ISREG(found.st_mode) or found.st_nlink != 1:
+        os.close(opened)
+        message = f"{lock} cannot be used as a lock: it is a link, or no file"
+        raise ConfigError(message)
+    return opened

@@ -10,6 +10,7 @@ from gripperd.cli.notify import notify
 from gripperd.cli.processes import bench_socket, control_socket, simulated
 from gripperd.config import Settings
 from gripperd.link.client import Client
+from gripperd.link.folder import private_folder
 from gripperd.service.app import create_app
 from gripperd.service.server import serve as serve_http
 
@@ -21,6 +22,8 @@ log = structlog.get_logger()
 
 async def service(settings: Settings, address: tuple[str, int] | None) -> None:
     """Serve REST."""
+    # Who put a folder there before us could answer in the place of control.
+    private_folder(settings.runtime_dir, control_socket(settings).name)
     nice(SERVICE_NICENESS)
     bench_client = None
     if simulated(settings) is not None:

@@ -10,9 +10,10 @@ import signal
 import socket
 import sys
 from asyncio.subprocess import Process
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import repeat
 from pathlib import Path
 
 import structlog
@@ -24,11 +25,11 @@ READY_WITHIN = 30.0
 """Longest time for a process to become ready. [s]"""
 GRACE = 5.0
 """Time for a process to end by itself before it is killed. [s]"""
-RESTART_PAUSE = 1.0
+FIRST_PAUSE, LONGEST_PAUSE = 1.0, 10.0
 """Between the death of a process and its next life. [s]"""
 
-UNUSABLE_CONFIGURATION = 78
-"""EX_CONFIG of sysexits.h: starting again would not help."""
+SUPERVISED = "GRIPPERD_SUPERVISED"
+"""Variable that tells a process the id of its supervisor."""
 
 log = structlog.get_logger()
 
@@ -60,6 +61,8 @@ class Child:
         ------
         StartFailed
             It ended first, or took too long.
+        ConfigError
+            It cannot report.
         """
         address = self.folder / f"{self.name}.notify"
         receiver = listen(address)
@@ -69,7 +72,7 @@ class Child:
                 "-m",
                 "gripperd",
                 *self.arguments,
-                env=os.environ | {VARIABLE: str(address)},
+                env=os.environ | {VARIABLE: str(address), SUPERVISED: str(os.getpid())},
                 start_new_session=True,
             )
             self.facts = await self._ready(receiver)
@@ -121,10 +124,8 @@ class Child:
 async def supervise(children: list[Child]) -> None:
     """Keep every child alive, for ever.
 
-    Raises
-    ------
-    StartFailed
-        A child cannot live with the configuration as it is now.
+    All were ready once. Whatever one of them finds wrong from then on, be it a file
+    that was changed meanwhile, the others go on, and it is tried again.
     """
     async with asyncio.TaskGroup() as tasks:
         for child in children:
@@ -135,13 +136,28 @@ async def _keep(child: Child) -> None:
     while True:
         status = await child.died()
         log.error("process ended", process=child.name, status=status)
-        if status == UNUSABLE_CONFIGURATION:
-            message = f"{child.name} finds the configuration unusable"
-            raise StartFailed(message, status)
-        await asyncio.sleep(RESTART_PAUSE)
-        with suppress(StartFailed):
+        await _revive(child)
+
+
+async def _revive(child: Child) -> None:
+    for pause in pauses():
+        await asyncio.sleep(pause)
+        try:
             await child.start()
+        except (GripperdError, OSError) as error:
+            log.error("process does not start", process=child.name, cause=str(error))
+        else:
             log.warning("process restarted", process=child.name)
+            return
+
+
+def pauses() -> Iterator[float]:
+    """How long to wait before each attempt to start a process again. [s]."""
+    pause = FIRST_PAUSE
+    while pause < LONGEST_PAUSE:
+        yield pause
+        pause *= 2
+    yield from repeat(LONGEST_PAUSE)
 
 
 async def stop_requested() -> str:

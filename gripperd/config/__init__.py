@@ -9,18 +9,26 @@ from gripperd.config.profile import (
     parse_profile,
     profile_document,
 )
-from gripperd.config.saved import delete_profile, saved_profiles, write_profile
+from gripperd.config.saved import (
+    SavedProfiles,
+    delete_profile,
+    saved_profiles,
+    write_profile,
+)
 from gripperd.config.settings import (
+    KEYLESS,
     BenchBus,
     BenchSettings,
     FailMode,
     GripperSettings,
     Http,
     Settings,
+    is_loopback,
 )
 from gripperd.config.settings_file import load_settings
 
 __all__ = [
+    "KEYLESS",
     "BenchBus",
     "BenchSettings",
     "Complaint",
@@ -28,8 +36,10 @@ __all__ = [
     "GripperSettings",
     "Http",
     "ModelFile",
+    "SavedProfiles",
     "Settings",
     "delete_profile",
+    "is_loopback",
     "load_chain",
     "load_model",
     "load_profile",

@@ -2,7 +2,7 @@
 
 # ruff: noqa: N815  (names carry units, and units have capitals)
 
-from collections.abc import Mapping
+from collections.abc import Mapping, MutableSequence
 from pathlib import Path
 from typing import Annotated
 
@@ -12,8 +12,12 @@ from gripperd.config.complaint import Complaint, gathering
 from gripperd.config.document import Document, read_document
 from gripperd.config.section import Name, Section, numbers, plain
 from gripperd.config.validation import validated
+from gripperd.control.grasp import TRIP_MARGIN
 from gripperd.control.profile import Mode, Profile
 from gripperd.errors import ConfigError
+
+LEAST_CRUSH_MARGIN = 1.2
+"""What a grasp aims at must leave room for noise below what ends it."""
 
 
 class SizeSection(Section):
@@ -34,7 +38,18 @@ class MarginsSection(Section):
     """Factors to keep to both limits."""
 
     slip_margin: float = Field(ge=1, le=100, alias="slip")
-    crush_margin: float = Field(ge=1, le=100, alias="crush")
+    crush_margin: float = Field(le=100, alias="crush")
+
+    @field_validator("crush_margin")
+    @classmethod
+    def _leave_room(cls, margin: float) -> float:
+        if margin < LEAST_CRUSH_MARGIN:
+            message = (
+                f"{margin:g} is below {LEAST_CRUSH_MARGIN:g}; a grasp is broken off at"
+                f" {TRIP_MARGIN:g} and could not get there"
+            )
+            raise ValueError(message)
+        return margin
 
 
 class GraspSection(Section):
@@ -107,12 +122,20 @@ def load_profiles(folder: Path) -> Mapping[str, Profile]:
     if not folder.is_dir():
         raise ConfigError(Complaint("there is no such folder", source=str(folder)))
     complaints: list[str] = []
+    profiles = readable_profiles(folder, complaints)
+    if complaints:
+        raise ConfigError(*complaints)
+    return profiles
+
+
+def readable_profiles(
+    folder: Path, complaints: MutableSequence[str]
+) -> Mapping[str, Profile]:
+    """Read what can be read of a folder; complain about the rest."""
     profiles: dict[str, Profile] = {}
     for path in sorted(folder.glob("[!.]*.y*ml")):
         with gathering(complaints):
             profiles[path.stem] = _named_after(path)
-    if complaints:
-        raise ConfigError(*complaints)
     return profiles
 
 

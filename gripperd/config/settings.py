@@ -3,12 +3,32 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from ipaddress import ip_address
 from pathlib import Path
 
 from gripperd.control.profile import Profile
 from gripperd.drivers.analog import InputWiring, OutputWiring
 from gripperd.drivers.bus import TcpAddress
 from gripperd.model import Chain
+
+KEYLESS = (
+    "access keys are not there yet: put a reverse proxy with authentication in front"
+)
+"""Why the service is for this machine alone."""
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine can reach what listens there.
+
+    >>> is_loopback("::1"), is_loopback("0.0.0.0")
+    (True, False)
+    """
+    if host.lower() == "localhost":
+        return True
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:
+        return False
 
 
 class FailMode(StrEnum):
@@ -27,6 +47,7 @@ class Http:
     """Where the service listens."""
 
     host: str
+    """Of this machine alone: see :data:`KEYLESS`."""
     port: int
     """0: any free port."""
 

@@ -17,21 +17,27 @@ from gripperd.config.model import load_chain
 from gripperd.config.profile import load_profiles
 from gripperd.config.section import Name, Section
 from gripperd.config.settings import (
+    KEYLESS,
     BenchBus,
     BenchSettings,
     FailMode,
     GripperSettings,
     Http,
     Settings,
+    is_loopback,
 )
 from gripperd.config.validation import validated
 from gripperd.config.wiring import (
+    BENCH,
     Address,
     BusName,
     HostPort,
     InputSection,
     OutputSection,
     TcpSection,
+    check_bench_input,
+    check_bench_output,
+    check_driven,
 )
 from gripperd.config.wording import shown
 from gripperd.control.profile import Profile
@@ -63,6 +69,14 @@ class HttpSection(Section):
     host: str = Field(default="127.0.0.1", min_length=1, max_length=253)
     port: int = Field(default=8765, ge=0, le=65535)
 
+    @field_validator("host")
+    @classmethod
+    def _reaches_nobody_else(cls, host: str) -> str:
+        if not is_loopback(host):
+            message = f"{shown(host)} is not a loopback address; {KEYLESS}"
+            raise ValueError(message)
+        return host
+
 
 class BenchSection(Section):
     """The simulated rig."""
@@ -77,11 +91,37 @@ class GripperSection(Section):
 
     bus: BusName
     output: OutputSection
-    input: InputSection | None = None
+    input: InputSection | None = Field(default=None, validate_default=True)
     model: Annotated[Chain, PlainValidator(_chain)]
     fail_mode: Annotated[FailMode, Field(strict=False)]
     auto_enable: bool = False
     rate_Hz: float = Field(default=100.0, ge=1, le=500)
+
+    @field_validator("output")
+    @classmethod
+    def _is_the_benchs(
+        cls, output: OutputSection, read: ValidationInfo
+    ) -> OutputSection:
+        if read.data.get("bus") == BENCH:
+            check_bench_output(output)
+        return output
+
+    @field_validator("input")
+    @classmethod
+    def _are_the_benchs(
+        cls, inputs: InputSection | None, read: ValidationInfo
+    ) -> InputSection | None:
+        if read.data.get("bus") == BENCH:
+            check_bench_input(inputs)
+        return inputs
+
+    @field_validator("model")
+    @classmethod
+    def _can_be_driven(cls, chain: Chain, read: ValidationInfo) -> Chain:
+        output = read.data.get("output")
+        if output is not None:
+            check_driven(chain.regulator, output.module)
+        return chain
 
     def settings(self, name: str) -> GripperSettings:
         """The same in SI."""
@@ -125,7 +165,12 @@ class SettingsSection(Section):
 def _uses(name: str, gripper: GripperSection) -> Iterator[tuple[str, str]]:
     """What a gripper claims on its bus, and what for."""
     bus, output = gripper.bus, gripper.output
-    where = str(bus.address) if isinstance(bus, TcpSection) else bus
+    if isinstance(bus, TcpSection):
+        where = str(bus.address)
+        yield f"the bus at {where}", f"asked with timeout_ms {bus.timeout_ms:g}"
+    else:
+        where = bus
+        yield "the bench", f"the rig of {name}"
     unit = f"unit {output.unit} on {where}"
     yield unit, output.module.name
     yield f"channel {output.channel} of {unit}", f"the valve of {name}"

@@ -15,14 +15,19 @@ from pydantic import (
     field_validator,
 )
 
+from gripperd.bench.sensors import Channel as BenchChannel
 from gripperd.config.complaint import did_you_mean
 from gripperd.config.section import Kilopascals, Rising, Section, Span, numbers
 from gripperd.config.wording import shown
 from gripperd.drivers.analog import InputWiring, OutputWiring, SensorWiring
 from gripperd.drivers.bus import TcpAddress
+from gripperd.model import Regulator
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.protocol.modules import INPUTS, OUTPUTS, InputModule, OutputModule
+from gripperd.units import MILLI
 
+BENCH: Literal["bench"] = "bench"
+"""Name of the bus of the simulated rig."""
 ADDRESS = re.compile(r"(?:\[([0-9A-Fa-f:.]+)\]|([^\s:\[\]]+)):([0-9]{1,5})")
 
 
@@ -178,3 +183,35 @@ class InputSection(Section):
     def wiring(self) -> InputWiring:
         """The same for the driver."""
         return InputWiring(module=self.module, unit=self.unit, sensors=self.sensors)
+
+
+def check_bench_output(output: OutputSection) -> None:
+    """Refuse a valve where the simulated rig has none."""
+    if output.channel != 0:
+        message = f"channel {output.channel}: the bench has its valve on channel 0"
+        raise ValueError(message)
+
+
+def check_bench_input(inputs: InputSection | None) -> None:
+    """Refuse sensors where the simulated rig has others, or none."""
+    if inputs is None:
+        message = "no input is given; the bench has its sensors on one"
+        raise ValueError(message)
+    for channel, name in enumerate(BenchChannel):
+        sensor = inputs.sensors.get(name)
+        if sensor is not None and sensor.channel != channel:
+            message = (
+                f"{name} on channel {sensor.channel}: the bench has it on"
+                f" channel {channel}"
+            )
+            raise ValueError(message)
+
+
+def check_driven(regulator: Regulator, module: OutputModule) -> None:
+    """Refuse a valve whose upper end its output module cannot drive."""
+    if regulator.current_high > module.highest:
+        message = (
+            f"valve.current_mA ends at {regulator.current_high / MILLI:g} mA,"
+            f" {module.name} drives up to {module.highest / MILLI:g} mA"
+        )
+        raise ValueError(message)

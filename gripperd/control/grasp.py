@@ -5,13 +5,13 @@ until contact is felt, on to the target, and is kept there while the grip proves
 No clock and no I/O: a step takes a measurement and the time since the last one.
 """
 
-from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from gripperd.control.command import GraspOrder, GraspResult, Outcome
 from gripperd.control.force import ForceSense
 from gripperd.control.plan import Plan
 from gripperd.control.profile import Mode
+from gripperd.control.proof import DURATION, Proof
 from gripperd.control.setpoint import Ramp, reached, within
 from gripperd.model import Chain
 from gripperd.signals import Measurement
@@ -22,10 +22,10 @@ TRIP_MARGIN = 1.15
 """Damage limit over the force at which a grasp is cut short. [-]"""
 SETTLE = 0.4
 """Time in which regulator and muscle follow the last step of the current. [s]"""
-PROOF = 0.7
-"""How long a grip must prove itself: a slipping object falls 20 mm meanwhile. [s]"""
 FOLLOWED = 0.9
 """Share of the wanted pressure that counts as reached. [-]"""
+BLIND_AFTER = 0.2
+"""How long the jaws wait for a force that is not told. [s]"""
 CORRECTION_RATE = 3.0
 """Share of the force error that is corrected in a second. [1/s]"""
 CORRECTION_TIME = 4.0
@@ -33,10 +33,6 @@ CORRECTION_TIME = 4.0
 TOLERANCE_SHARE = 0.03
 TOLERANCE_LEAST = 0.2
 """Force error that counts as none: a share of the target, at least this. [N]"""
-SLIP_DROP = 0.5
-"""Share of the force that may vanish while the grip proves itself. [-]"""
-SLIP_TRAVEL = 2e-3
-"""Closing of the jaws that tells of a lost object meanwhile. [m]"""
 
 
 class Phase(StrEnum):
@@ -46,16 +42,6 @@ class Phase(StrEnum):
     TOUCH = "touch"
     BUILD = "build"
     VERIFY = "verify"
-
-
-@dataclass(frozen=True, slots=True)
-class Proof:
-    """What the grip was when it began to prove itself, and the force since."""
-
-    force: float
-    opening: float | None
-    total: float = 0.0
-    samples: int = 0
 
 
 class Grasp:
@@ -79,10 +65,11 @@ class Grasp:
         """Time since the start. [s]"""
         self._chain = chain
         self._plan = Plan(order, chain)
-        self._force = ForceSense(chain)
+        self._force = ForceSense()
         self._dwell = 0.0
         self._proof: Proof | None = None
         self._eased = False
+        self._blind, self._hard = 0.0, 0
         self._near, self._limit = self._plan.near, self._plan.closing_limit
         self._goal = self._safest = self._plan.goal
 
@@ -129,7 +116,8 @@ class Grasp:
             found = measured.current.value
             current = self.ramp.current if found is None else found
             predicted, std = self._plan.expected(current, opening, eased=self._eased)
-        force = self._proven_force()
+        force = self._proof.force if self._proof else None
+        force = self._force.now.value if force is None else force
         slip = crush = None
         if touched and force is not None and force > 0:
             slip = force / profile.slip_force
@@ -161,9 +149,12 @@ class Grasp:
         if self._force.touching:
             return self._contact(measured)
         if self._force.now.value is None:
-            # Nothing can be felt: go on blind, and own up to it at the end.
-            self._enter(Phase.BUILD)
+            # Nothing is felt: wait, then go on blind and own up to it at the end.
+            self._blind += dt
+            if self._blind > BLIND_AFTER:
+                self._enter(Phase.BUILD)
             return None
+        self._blind = 0.0
         if self.ramp.towards(self._limit, self.order.profile.ramp, dt):
             self._dwell += dt
         if self._dwell <= SETTLE:
@@ -202,6 +193,9 @@ class Grasp:
         return None
 
     def _build(self, measured: Measurement, dt: float) -> Outcome | None:
+        if self._blind and self._force.touching:
+            self._blind = 0.0
+            return self._contact(measured)
         if self._strong_enough():
             # The model asks for more than it takes: what is felt decides.
             self.rest(measured)
@@ -255,27 +249,21 @@ class Grasp:
         force, proof = self._force.now.value, self._proof
         assert proof is not None
         if force is None:
-            return Outcome.UNKNOWN if self._dwell > PROOF else None
-        total, samples = proof.total + force, proof.samples + 1
-        self._proof = replace(proof, total=total, samples=samples)
-        if self._slipping(measured, proof):
+            return Outcome.UNKNOWN if self._dwell > DURATION else None
+        proof.add(force)
+        if proof.slipped(self._force.filtered or 0.0, measured):
             return Outcome.SLIPPED
-        if self._dwell <= PROOF:
+        if self._dwell <= DURATION:
             return None
         profile = self.order.profile
-        enough = total / samples >= profile.slip_force * profile.slip_margin
+        enough = (proof.force or 0.0) >= profile.slip_force * profile.slip_margin
         return Outcome.HELD if enough else Outcome.FORCE_NOT_REACHED
-
-    def _slipping(self, measured: Measurement, proof: Proof) -> bool:
-        if (self._force.filtered or 0.0) < SLIP_DROP * proof.force:
-            return True
-        now, then = measured.opening.value, proof.opening
-        return now is not None and then is not None and now < then - SLIP_TRAVEL
 
     def _over_limit(self) -> bool:
         force = self._force.now.value
         highest = self.order.profile.damage_force / TRIP_MARGIN
-        return force is not None and force > highest
+        self._hard = self._hard + 1 if force is not None and force > highest else 0
+        return self._hard >= 2
 
     def _reduce(self) -> None:
         """Take the force back to the safe side: venting would drop the object."""
@@ -284,11 +272,6 @@ class Grasp:
         self.ramp.rest(None)
         reduced = self.ramp.current - self._plan.reduction(self._force.now.value or 0.0)
         self.ramp.current = within(self._chain.regulator, reduced)
-
-    def _proven_force(self) -> float | None:
-        if self._proof is not None and self._proof.samples:
-            return self._proof.total / self._proof.samples
-        return self._force.now.value
 
     def _enter(self, phase: Phase) -> None:
         self.phase = phase

@@ -18,11 +18,12 @@ from gripperd.control.command import (
 )
 from gripperd.control.evaluation import check
 from gripperd.control.execution import Ending, Execution
+from gripperd.control.hold import Hold
 from gripperd.control.ledger import Key, Ledger
 from gripperd.control.output import Output
+from gripperd.control.senses import Senses
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.control.states import Event, Grip, Machine, after, possible
-from gripperd.control.watch import GripWatch
 from gripperd.errors import GripperdError, Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
@@ -52,15 +53,14 @@ class Gripper:
         self.name = name
         self.chain = chain
         self.machine = Machine.OFFLINE
-        self.grip = Grip.UNKNOWN
         self.ledger = Ledger(name, identify)
-        self._auto_enable = auto_enable
+        self._enabled = auto_enable
         self.link = "not connected yet"
         self._output = Output()
         self._measured: Measurement | None = None
-        self._watch = GripWatch(chain)
+        self._senses = Senses(chain)
+        self._hold = Hold()
         self._execution: Execution | None = None
-        self._holding: str | None = None
         self._dwell = 0.0
         self._samples = 0
 
@@ -124,6 +124,11 @@ class Gripper:
         return self._output.change()
 
     @property
+    def grip(self) -> Grip:
+        """What the jaws hold."""
+        return self._hold.grip
+
+    @property
     def attached(self) -> bool:
         """Whether the present state of the hardware is known."""
         return self.machine not in {Machine.OFFLINE, Machine.ATTACHING}
@@ -131,10 +136,12 @@ class Gripper:
     def enable(self) -> None:
         """Allow commands; nothing moves."""
         self.machine = after(self.machine, Event.ENABLE)
+        self._enabled = True
 
     def disable(self, now: Instant) -> None:
         """Allow no more commands, nor those that wait; the current stays."""
         self.machine = after(self.machine, Event.DISABLE)
+        self._enabled = False
         self._end_all(CANCELLED, now)
 
     def state(self, now: Instant) -> GripperState:
@@ -144,14 +151,14 @@ class Gripper:
         return GripperState(
             name=self.name,
             machine=self.machine,
-            grip=self.grip,
+            grip=self._hold.grip,
             available_transitions=possible(self.machine),
             adopted=self._output.adopted,
             current=self._output.current if self.attached else None,
             measured=measured,
             age=None if measured is None else now.monotonic - measured.time,
             command=None if running is None else running.command.id,
-            holding=self._holding,
+            holding=self._hold.profile,
             link=self.link,
         )
 
@@ -162,18 +169,18 @@ class Gripper:
             return
         self.machine = after(self.machine, Event.LINK_LOST)
         self._end_all(Failure(category="fault", code="link-lost", message=why), now)
-        self.grip = Grip.UNKNOWN
+        self._hold.settle(Grip.UNKNOWN, None)
 
-    def period(self, measured: Measurement, dt: float, now: Instant) -> float | None:
-        """Advance by one period.
+    def period(self, raw: Measurement, dt: float, now: Instant) -> float | None:
+        """Advance by one period on a fresh sample.
 
         Returns
         -------
         The current to write, None where it stays. [A]
         """
-        self._measured = measured
+        measured = self._measured = self._senses.judge(raw, dt)
         self.link = "up"
-        self._watch.update(measured, dt)
+        self._hold.update(measured, dt)
         match self.machine:
             case Machine.OFFLINE:
                 self.machine = after(self.machine, Event.LINK_UP)
@@ -193,13 +200,18 @@ class Gripper:
         self._notice_foreign_write(measured, now)
         self._execute(measured, dt, now)
         self._expire(now)
-        self._look()
+        self._hold.look(adopted=self._output.adopted and self._execution is None)
         return self._output.change()
 
     def _check_free(self) -> None:
-        if self.grip is Grip.HOLDING and not self.ledger.releases_first:
-            message = f"{self._holding or 'an object'} is being held"
-            raise Refused(message, code="object-held", hints=("release first",))
+        objection = self._objection
+        if objection and not self.ledger.releases_first:
+            raise Refused(objection, code="object-held", hints=("release first",))
+
+    @property
+    def _objection(self) -> str | None:
+        low = self.chain.regulator.current_low
+        return self._hold.objection(vented=self._output.current <= low)
 
     def _attach(self, measured: Measurement) -> None:
         """Take over what is there; nothing is written before this."""
@@ -207,16 +219,15 @@ class Gripper:
         if measured.current.value is None or self._samples < ATTACH_SAMPLES:
             return
         self._output.adopt(measured.current.value)
-        self._holding = None
-        self.grip = self._watch.seen()
+        self._hold.adopt()
         self.machine = after(self.machine, Event.ADOPT)
-        if self._auto_enable:
+        if self._enabled:
             self.enable()
 
     def _start_next(self, now: Instant) -> None:
         if (command := self.ledger.next()) is None:
             return
-        if command.order is not None and self.grip is Grip.HOLDING:
+        if command.order is not None and self._objection:
             self.ledger.close(command, now.wall, failure=OBJECT_HELD)
             return
         current = self._output.current
@@ -227,8 +238,7 @@ class Gripper:
             return
         self.machine = after(self.machine, Event.START)
         self.ledger.put(self._execution.command)
-        self.grip = self._execution.grip
-        self._holding = None
+        self._hold.settle(self._execution.grip, None)
 
     def _execute(self, measured: Measurement, dt: float, now: Instant) -> None:
         if (execution := self._execution) is None:
@@ -247,17 +257,15 @@ class Gripper:
     def _end(self, ending: Ending, now: Instant) -> None:
         assert self._execution is not None
         command, self._execution = self._execution.command, None
-        self.grip = ending.grip
-        if self.grip is Grip.HOLDING and command.order is not None:
-            self._holding = command.order.profile.name
-        self._watch.hold()
+        order = command.order
+        self._hold.settle(ending.grip, None if order is None else order.profile.name)
         self.ledger.close(
             command, now.wall, result=ending.result, failure=ending.failure
         )
 
     def _end_all(self, failure: Failure, now: Instant) -> None:
         if self._execution is not None:
-            self._end(Ending(self._watch.interrupted, None, failure), now)
+            self._end(Ending(self._hold.interrupted, None, failure), now)
         for command in self.ledger.waiting():
             self.ledger.close(command, now.wall, failure=failure)
 
@@ -265,7 +273,7 @@ class Gripper:
         self.machine = after(self.machine, Event.STOP)
         self._dwell = 0.0
         self._freeze()
-        self._end(Ending(self._watch.interrupted, None, failure), now)
+        self._end(Ending(self._hold.interrupted, None, failure), now)
 
     def _freeze(self) -> None:
         """Let the jaws rest where they are: the pressure lags behind the current."""
@@ -290,11 +298,3 @@ class Gripper:
                 self._interrupt(failure, now)
             else:
                 self.ledger.close(command, now.wall, failure=failure)
-
-    def _look(self) -> None:
-        """See for itself: what nobody commanded, and what was lost."""
-        if self._output.adopted and self._execution is None:
-            self.grip = self._watch.seen()
-        elif self.grip is Grip.HOLDING and self._watch.lost:
-            self.grip = Grip.PART_LOST
-            self._holding = None

@@ -12,7 +12,7 @@ from gripperd.control.gripper import Gripper
 from gripperd.control.ledger import LONGEST_QUEUE, Key
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.drivers.analog import AnalogRig
-from gripperd.errors import LinkError
+from gripperd.errors import InputError, LinkError
 
 if TYPE_CHECKING:
     from gripperd.control.states import Grip, Machine
@@ -81,7 +81,8 @@ class Loop:
             change = self.gripper.period(measured, now.monotonic - last, now)
             if change is not None:
                 await self._rig.write(change)
-        except LinkError as error:
+        except (LinkError, InputError) as error:
+            # A current that the module cannot give is as good as no link.
             self.gripper.link_lost(str(error), self._now())
         return now.monotonic
 

@@ -67,7 +67,11 @@ class Plan:
     def safest(self) -> float:
         """Current that a correction must not exceed, whatever is felt. [A]."""
         profile = self._order.profile
-        return self._for(profile.damage_force / profile.crush_margin)
+        try:
+            return self._for(profile.damage_force / profile.crush_margin)
+        except DomainError:
+            # Soft and tough: nothing the valve can do squeezes it that hard.
+            return self._chain.regulator.current_high
 
     def current_per_newton(self, force: float) -> float:
         """Change of current for a change of grip force, at the object. [A/N]."""

@@ -19,7 +19,7 @@ class Release:
     def __init__(self, chain: Chain, current: float) -> None:
         self.ramp = Ramp(current)
         self._chain = chain
-        self._force = ForceSense(chain)
+        self._force = ForceSense()
         self._dwell = 0.0
 
     def step(self, measured: Measurement, dt: float) -> bool | None:

@@ -3,7 +3,6 @@
 from gripperd.control.force import ForceSense
 from gripperd.control.release import SLACK_PRESSURE
 from gripperd.control.states import Grip
-from gripperd.model import Chain
 from gripperd.signals import Measurement
 
 LOST_SAMPLES = 5
@@ -15,8 +14,8 @@ LOST_TRAVEL = 2e-3
 class GripWatch:
     """Looks at every measurement, also while no command runs."""
 
-    def __init__(self, chain: Chain) -> None:
-        self._force = ForceSense(chain)
+    def __init__(self) -> None:
+        self._force = ForceSense()
         self._measured: Measurement | None = None
         self._held_at: float | None = None
         self._missing = 0
@@ -42,7 +41,10 @@ class GripWatch:
     @property
     def interrupted(self) -> Grip:
         """Grip when a motion was cut short."""
-        return Grip.HOLDING if self.touching else Grip.UNKNOWN
+        if self.touching:
+            return Grip.HOLDING
+        # Only a sensor can tell that nothing is held; the model misses a light grip.
+        return Grip.NO_PART if self._force.measured else Grip.UNKNOWN
 
     @property
     def lost(self) -> bool:
@@ -51,12 +53,11 @@ class GripWatch:
 
     def seen(self) -> Grip:
         """Grip as it looks, without knowing how it came about."""
-        if self.touching:
-            return Grip.HOLDING
         pressure = None if self._measured is None else self._measured.pressure.value
-        if pressure is not None and pressure < SLACK_PRESSURE:
+        slack = pressure is not None and pressure < SLACK_PRESSURE
+        if slack and not self.touching:
             return Grip.RELEASED
-        return Grip.UNKNOWN
+        return self.interrupted
 
     def _misses(self, measured: Measurement) -> bool:
         if self._force.measured:

@@ -6,9 +6,12 @@ from dataclasses import dataclass
 from gripperd.drivers.bus import Bus
 from gripperd.errors import DeviceRefused
 from gripperd.protocol.live_zero import LoopScale
-from gripperd.protocol.modbus import Read, Table, Write
+from gripperd.protocol.modbus import Read, Refusal, Table, Write
 from gripperd.protocol.modules import InputModule, OutputModule
 from gripperd.signals import Measurement, Reading
+
+PASSING = frozenset({Refusal.ACKNOWLEDGE, Refusal.BUSY, Refusal.NO_RESPONSE})
+"""Refusals that may be over a moment later."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,7 +61,7 @@ class AnalogRig:
             When no trustworthy answer came.
         """
         unit = self._output.unit
-        (count,) = await self._bus.ask(Read(unit, Table.HOLDING, self._register))
+        (count,) = await self._look(Read(unit, Table.HOLDING, self._register))
         current = Reading(self._output.module.decode(count))
         sensors = await self._sensors()
         return Measurement(time=now, current=current, **sensors)
@@ -80,6 +83,15 @@ class AnalogRig:
         """The last current asked for: a write that waited must not undo a later one."""
         return Write(self._output.unit, self._register, (self._count,))
 
+    async def _look(self, request: Read) -> tuple[int, ...]:
+        """Read, and once more from a busy device; a write is never repeated."""
+        try:
+            return await self._bus.ask(request)
+        except DeviceRefused as error:
+            if error.exception_code not in PASSING:
+                raise
+            return await self._bus.ask(request)
+
     async def _sensors(self) -> dict[str, Reading]:
         wiring = self._inputs
         if wiring is None or not wiring.sensors:
@@ -87,7 +99,7 @@ class AnalogRig:
         highest = max(sensor.channel for sensor in wiring.sensors.values())
         request = Read(wiring.unit, Table.INPUT, wiring.module.address, highest + 1)
         try:
-            counts = await self._bus.ask(request)
+            counts = await self._look(request)
         except DeviceRefused as error:
             # The line is sound: without its sensors the valve can still be driven.
             return {name: Reading.bad(str(error)) for name in wiring.sensors}

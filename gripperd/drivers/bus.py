@@ -16,8 +16,9 @@ from gripperd.errors import BadReply, DeviceRefused, LinkLost, ReplyTimeout
 from gripperd.protocol import modbus
 
 FIRST_BACK_OFF = 0.1
-LAST_BACK_OFF = 2.0
-"""Pause between attempts to connect, doubled from the first to the last. [s]"""
+LAST_BACK_OFF = 0.5
+"""Pause between attempts to connect, doubled from the first to the last; the last is
+also the longest wait for one attempt. [s]"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,7 +28,7 @@ class TcpAddress:
     host: str
     port: int
     timeout: float = 0.2
-    """Longest wait for a reply, and for a connection. [s]"""
+    """Longest wait for a reply. [s]"""
 
     def __str__(self) -> str:
         """As in a configuration file."""
@@ -224,7 +225,7 @@ class Bus:
         while True:
             try:
                 await self._connect()
-            except (OSError, TimeoutError):
+            except (OSError, TimeoutError, UnicodeError):
                 self.statistics.errors["connect"] += 1
                 await asyncio.sleep(pause)
                 pause = min(2 * pause, LAST_BACK_OFF)
@@ -240,7 +241,7 @@ class Bus:
 
     async def _connect(self) -> None:
         loop = asyncio.get_running_loop()
-        async with asyncio.timeout(max(self.address.timeout, 1.0)):
+        async with asyncio.timeout(LAST_BACK_OFF):
             _, wire = await loop.create_connection(
                 _Wire, self.address.host, self.address.port
             )

@@ -73,7 +73,8 @@ class Client:
             try:
                 reader, self._writer = await asyncio.open_unix_connection(self._path)
             except OSError as error:
-                message = f"{self._peer} is not running: {self._path}: {error.strerror}"
+                reason = error.strerror or error
+                message = f"{self._peer} is not running: {self._path}: {reason}"
                 raise LinkLost(message) from error
             self._reading = asyncio.create_task(self._read(reader, self._writer))
             return self._writer

@@ -114,4 +114,7 @@ def raised(failed: Failed) -> errors.GripperdError:
         return errors.DeviceRefused(
             failed.message, exception_code=failed.exception_code
         )
-    return errors.LinkError(failed.message)
+    if kind is errors.LinkError:
+        return errors.LinkError(failed.message)
+    # Nothing that was raised on purpose: asking again would not help.
+    return errors.GripperdError(failed.message)

@@ -10,7 +10,8 @@ from pathlib import Path
 import msgspec
 import structlog
 
-from gripperd.errors import BadReply, GripperdError, Refused
+from gripperd.errors import BadReply, ConfigError, GripperdError, Refused
+from gripperd.link.folder import private_folder
 from gripperd.link.frames import Answer, Ask, decode, encode, failed, frame, read_frame
 
 Respond = Callable[[msgspec.Raw], Awaitable[object]]
@@ -26,6 +27,13 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
     """Answer on a socket while inside; requests of one client run side by side.
 
     The socket is the user's own: whoever may open it may move the gripper.
+
+    Raises
+    ------
+    ConfigError
+        The socket cannot be there.
+    Refused
+        Another process answers there.
     """
     await _make_way(path)
     clients: set[asyncio.Task[None]] = set()
@@ -41,11 +49,7 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
             clients.discard(task)
             writer.close()
 
-    mask = os.umask(0o177)
-    try:
-        server = await asyncio.start_unix_server(connected, path)
-    finally:
-        os.umask(mask)
+    server = await _listening(path, connected)
     ours = _identity(path)
     try:
         yield
@@ -56,9 +60,22 @@ async def serve(path: Path, respond: Respond) -> AsyncIterator[None]:
         _clear(path, ours)
 
 
+async def _listening(
+    path: Path, connected: Callable[[StreamReader, StreamWriter], Awaitable[None]]
+) -> asyncio.Server:
+    mask = os.umask(0o177)
+    try:
+        return await asyncio.start_unix_server(connected, path)
+    except OSError as error:
+        message = f"{path} cannot be listened on: {error.strerror or error}"
+        raise ConfigError(message) from error
+    finally:
+        os.umask(mask)
+
+
 async def _make_way(path: Path) -> None:
     """Leave no socket of an earlier life, and a folder that is the user's alone."""
-    _make_folder(path.parent)
+    private_folder(path.parent, path.name)
     try:
         _, writer = await asyncio.open_unix_connection(path)
     except FileNotFoundError:
@@ -71,14 +88,10 @@ async def _make_way(path: Path) -> None:
     raise Refused(message, code="already-running", hints=("stop it first",))
 
 
-def _make_folder(folder: Path) -> None:
-    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-
-
 def _remove_socket(path: Path) -> None:
     if not path.is_socket():
         message = f"{path} is in the way: it is no socket, so it is not removed"
-        raise Refused(message, code="path-taken")
+        raise ConfigError(message)
     path.unlink()
 
 

@@ -81,7 +81,7 @@ def _once(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 
 class Route(APIRoute):
-    """A route that reads strict JSON."""
+    """A route that reads strict JSON, and writes it as a line."""
 
     def get_route_handler(
         self,
@@ -90,9 +90,18 @@ class Route(APIRoute):
         answer = super().get_route_handler()
 
         async def strictly(request: Request) -> Response:
-            return await answer(StrictRequest(request.scope, request.receive))
+            return _ended(await answer(StrictRequest(request.scope, request.receive)))
 
         return strictly
+
+
+def _ended(response: Response) -> Response:
+    """End a JSON text as a line, so that a shell's prompt starts on its own."""
+    # A 204 has no text that could end.
+    if response.body and response.headers["content-type"] == "application/json":
+        response.body = bytes(response.body) + b"\n"
+        response.headers["content-length"] = str(len(response.body))
+    return response
 
 
 def router(tag: str) -> APIRouter:

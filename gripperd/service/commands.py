@@ -1,16 +1,16 @@
 """Commands: give one, follow it, cancel it."""
 
 import hashlib
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Annotated, Literal, Self
 
-import msgspec
-from fastapi import Body, Header, Query, Response
+from fastapi import Body, Depends, Header, Query, Request, Response
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from gripperd.config.section import Section
-from gripperd.control.command import Command, GraspOrder
+from gripperd.control.command import Command
 from gripperd.control.evaluation import check
 from gripperd.control.ledger import Key
 from gripperd.errors import InputError, LinkError
@@ -84,14 +84,28 @@ CommandRequest = Annotated[
 ]
 
 
+async def _key(
+    request: Request,
+    idempotency_key: Annotated[str | None, Header(min_length=1, max_length=255)] = None,
+) -> Key | None:
+    """Bind a key to the request as it was sent: what it refers to may change."""
+    if idempotency_key is None or not await request.body():
+        return None
+    sent = json.dumps([request.url.path, await request.json()], sort_keys=True)
+    return Key(idempotency_key, hashlib.sha256(sent.encode()).hexdigest())
+
+
+GivenKey = Annotated[Key | None, Depends(_key)]
+
+
 @routes.post("/grippers/{gripper}/commands", status_code=201)
 async def give_command(
     daemon: Daemon,
     gripper: str,
     asked: CommandRequest,
+    key: GivenKey,
     wait: Wait,
     response: Response,
-    idempotency_key: Annotated[str | None, Header(min_length=1, max_length=255)] = None,
 ) -> CommandDocument:
     """Grasp or release; 200 instead of 201 when the key was used for it before."""
     chain, order = daemon.gripper(gripper).chain, None
@@ -100,12 +114,8 @@ async def give_command(
         with _within("params" if asked.params else ""):
             order = order_for(params.profile, params, chain, daemon.library)
         check(order, chain)
-    key = _key(idempotency_key, order, params.deadline_s)
     submit = Submit(gripper, order, params.deadline_s, key)
-    try:
-        accepted = await daemon.control.ask(submit, Submitted)
-    finally:
-        daemon.states.forget(gripper)
+    accepted = await daemon.change(submit, Submitted)
     command = accepted.command
     if accepted.replayed:
         response.status_code = 200
@@ -151,10 +161,7 @@ async def read_command(
 async def cancel_command(daemon: Daemon, gripper: str, id: str) -> CommandDocument:
     """End a command; if it runs, the jaws freeze as on a stop."""
     request = Cancel(daemon.gripper(gripper).name, id)
-    try:
-        return command_document(await daemon.control.ask(request, Command))
-    finally:
-        daemon.states.forget(gripper)
+    return command_document(await daemon.change(request, Command))
 
 
 async def _followed(control: Client, command: Command, wait: Waiting) -> Command:
@@ -171,14 +178,6 @@ async def _read(control: Client, gripper: str, command: str, wait: float) -> Com
 def _applied(wait: Waiting, response: Response) -> None:
     if wait.applied:
         response.headers["preference-applied"] = wait.applied
-
-
-def _key(text: str | None, order: GraspOrder | None, deadline: float) -> Key | None:
-    """Bind a key to everything that was asked for, as it was resolved."""
-    if text is None:
-        return None
-    asked = msgspec.json.encode((order, deadline), order="deterministic")
-    return Key(text, hashlib.sha256(asked).hexdigest())
 
 
 @contextmanager

@@ -1,19 +1,22 @@
 """What the resources need, and how they get it."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from fastapi import Depends, Request
 
 from gripperd.config import GripperSettings, Settings
 from gripperd.config.complaint import did_you_mean
 from gripperd.control.snapshot import GripperState
+from gripperd.control.states import Machine
 from gripperd.errors import InputError, NotFound, Refused
 from gripperd.link.client import Client
-from gripperd.link.control import ReadState
+from gripperd.link.control import Cancel, Disable, Enable, ReadState, Stop, Submit
 from gripperd.service.library import ProfileLibrary
 from gripperd.service.shared import Shared
 from gripperd.service.state import StateDocument, state_document
+
+T = TypeVar("T")
 
 STATE_LASTS = 5e-3
 """States are shared for half a period of the control loop. [s]"""
@@ -84,6 +87,32 @@ class Context:
             message = "this daemon drives hardware; there is no bench to change"
             raise Refused(message, code="not-simulated")
         return self.bench
+
+    async def change(
+        self, request: Submit | Cancel | Stop | Enable | Disable, reply: type[T]
+    ) -> T:
+        """Ask control to do something with a gripper.
+
+        Raises
+        ------
+        Refused
+            What control refuses; with the cause, when the gripper has no link.
+        """
+        name = request.gripper
+        try:
+            return await self.control.ask(request, reply)
+        except Refused as refused:
+            if refused.code == "wrong-state":
+                await self._check_link(name)
+            raise
+        finally:
+            self.states.forget(name)
+
+    async def _check_link(self, name: str) -> None:
+        state = await self.control.ask(ReadState(name), GripperState, STATE_WITHIN)
+        if state.machine is Machine.OFFLINE:
+            message = f"{name} is offline: {state.link}"
+            raise Refused(message, code="link-down")
 
 
 def shared_states(settings: Settings, control: Client) -> Shared[Seen]:

@@ -16,6 +16,7 @@ HTTP_CODES = {
     415: "unsupported-media-type",
 }
 """Code of what the framework itself refuses."""
+OTHER_DEFECT = "another process met a defect; its log has the details"
 SEE_ALL = "GET /docs lists every resource"
 REPEATABLE = "with an Idempotency-Key it is safe to send a command again"
 
@@ -59,8 +60,9 @@ def failure(request: Request, error: GripperdError) -> ProblemResponse:
         faults = (Fault(detail=str(error), pointer=f"/{error.key}"),)
     elif isinstance(error, LinkError) and request.method == "POST":
         hints = (REPEATABLE,)
+    detail = OTHER_DEFECT if code == "internal" else str(error)
     return ProblemResponse(
-        problem(code, str(error), instance=path, hints=hints, faults=faults)
+        problem(code, detail, instance=path, hints=hints, faults=faults)
     )
 
 

@@ -52,8 +52,4 @@ async def disable(daemon: Daemon, gripper: str) -> StateDocument:
 
 async def _changed(daemon: Context, request: Stop | Enable | Disable) -> StateDocument:
     settings = daemon.gripper(request.gripper)
-    try:
-        state = await daemon.control.ask(request, GripperState)
-    finally:
-        daemon.states.forget(request.gripper)
-    return state_document(state, settings)
+    return state_document(await daemon.change(request, GripperState), settings)

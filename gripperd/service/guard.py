@@ -8,7 +8,6 @@ they come from.
 
 import asyncio
 from collections.abc import Sequence
-from ipaddress import ip_address
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -23,8 +22,6 @@ LONGEST_HEADERS = 16 * 1024
 BODY_TIME = 10.0
 """Longest time for a body to arrive. [s]"""
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
-EVERYWHERE = frozenset({"0.0.0.0", "::"})
-"""A service that listens there may be called by any of its addresses."""
 PRODUCED = frozenset(
     {"*/*", "application/*", "application/json", "application/problem+json"}
 )
@@ -46,7 +43,6 @@ class Guard:
     def __init__(self, app: ASGIApp, host: str, body_time: float = BODY_TIME) -> None:
         self._app = app
         self._hosts = LOOPBACK | {host.lower()}
-        self._everywhere = host in EVERYWHERE
         self._body_time = body_time
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -76,7 +72,8 @@ class Guard:
             detail = f"{size} octets of headers; at most {LONGEST_HEADERS} are read"
             raise Refused(detail, code="headers-too-large")
         self._check_host(headers.getlist("host"))
-        self._check_origin(headers.get("origin"))
+        for origin in headers.getlist("origin"):
+            _check_origin(origin, headers["host"])
         if scope["path"].startswith("/v1"):
             _check_accept(headers.getlist("accept"))
 
@@ -84,19 +81,10 @@ class Guard:
         if len(hosts) != 1:
             detail = f"{len(hosts)} Host headers; there must be one"
             raise Refused(detail, code="bad-request")
-        if not self._own(_name_of(f"//{hosts[0]}")):
+        if _name_of(f"//{hosts[0]}") not in self._hosts:
             detail = f"this service is not called {hosts[0][:100]!r}"
             hints = (f"it is called: {', '.join(sorted(self._hosts))}",)
             raise Refused(detail, code="misdirected", hints=hints)
-
-    def _check_origin(self, origin: str | None) -> None:
-        if origin is not None and not self._own(_name_of(origin)):
-            detail = f"a page from {origin[:100]!r} may not talk to this service"
-            raise Refused(detail, code="foreign-origin")
-
-    def _own(self, name: str | None) -> bool:
-        """Whether a name means this service; an address cannot be rebound."""
-        return name in self._hosts or (self._everywhere and _is_address(name))
 
     async def _body(self, headers: Headers, receive: Receive) -> bytes:
         length = headers.get("content-length", "")
@@ -122,11 +110,15 @@ def _name_of(url: str) -> str | None:
         return None
 
 
-def _is_address(name: str | None) -> bool:
+def _check_origin(origin: str, host: str) -> None:
+    """Refuse every page but this service's own; one at another port is a stranger's."""
     try:
-        return name is not None and bool(ip_address(name))
+        place = urlsplit(origin).netloc
     except ValueError:
-        return False
+        place = ""
+    if place.lower() != host.lower():
+        detail = f"a page from {origin[:100]!r} may not talk to this service"
+        raise Refused(detail, code="foreign-origin")
 
 
 def _check_accept(accepts: Sequence[str]) -> None:

@@ -28,6 +28,7 @@ NO_WATCHDOG = (
     " watchdog"
 )
 FAILS_OPEN = "{name}: without power or air the muscle vents and the object drops"
+SKIPPED = "a saved profile is not there: {complaint}"
 NO_REAL_TIME = "the control loop runs without real-time priority; see overruns"
 
 routes = router("health")
@@ -116,5 +117,7 @@ def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
         yield NO_WATCHDOG.format(name=name)
         if gripper.fail_mode is FailMode.VENT:
             yield FAILS_OPEN.format(name=name)
+    for complaint in daemon.library.skipped:
+        yield SKIPPED.format(complaint=complaint)
     if overview is not None and not overview.real_time:
         yield NO_REAL_TIME

@@ -1,7 +1,9 @@
 """The profiles: shipped originals, and what users made of them."""
 
+import asyncio
+import errno
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import msgspec
@@ -10,6 +12,9 @@ from gripperd.config import delete_profile, saved_profiles, write_profile
 from gripperd.config.complaint import did_you_mean
 from gripperd.control.profile import Profile
 from gripperd.errors import NotFound, Refused
+
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
+"""What an operating system says when there is no room left."""
 
 
 class ProfileLibrary:
@@ -29,11 +34,16 @@ class ProfileLibrary:
     def __init__(self, originals: Mapping[str, Profile], folder: Path) -> None:
         self._originals = originals
         self._folder = folder
+        saved = saved_profiles(folder)
         self._own = {
             name: profile
-            for name, profile in saved_profiles(folder).items()
+            for name, profile in saved.profiles.items()
             if name not in originals
         }
+        self.skipped = saved.complaints
+        """What is wrong with files of the folder that could not be read."""
+        self.changing = asyncio.Lock()
+        """To hold from looking at a profile until it is changed."""
         self._versions = {name: own.version for name, own in self._own.items()}
 
     def all(self) -> list[Profile]:
@@ -67,20 +77,20 @@ class ProfileLibrary:
         """Version that the next saved profile of that name gets."""
         return self._versions.get(name, 0) + 1
 
-    def save(self, profile: Profile) -> None:
+    async def save(self, profile: Profile) -> None:
         """Keep a profile, in place of the one of the same name.
 
         Raises
         ------
         Refused
-            The name is that of an original.
+            The name is that of an original, or the file cannot be written.
         """
         self.check_changeable(profile.name)
-        write_profile(profile, self._folder)
+        await _on_disk(lambda: write_profile(profile, self._folder))
         self._own[profile.name] = profile
         self._versions[profile.name] = profile.version
 
-    def remove(self, name: str) -> None:
+    async def remove(self, name: str) -> None:
         """Forget a profile.
 
         Raises
@@ -88,11 +98,11 @@ class ProfileLibrary:
         NotFound
             There is none.
         Refused
-            It is an original.
+            It is an original, or the file cannot be removed.
         """
         self.get(name)
         self.check_changeable(name)
-        delete_profile(name, self._folder)
+        await _on_disk(lambda: delete_profile(name, self._folder))
         del self._own[name]
 
     def check_changeable(self, name: str) -> None:
@@ -107,6 +117,16 @@ class ProfileLibrary:
             message = f"the profile {name} came with the settings and stays as it is"
             hints = ("POST /v1/profiles a copy under another name",)
             raise Refused(message, code="read-only", hints=hints)
+
+
+async def _on_disk(change: Callable[[], None]) -> None:
+    """Change a file; a slow disk holds up nobody who wants to stop a gripper."""
+    try:
+        await asyncio.to_thread(change)
+    except OSError as error:
+        message = f"nothing was changed: {error.strerror}"
+        code = "storage-full" if error.errno in FULL else "storage-failed"
+        raise Refused(message, code=code) from error
 
 
 def tag_of(profile: Profile) -> str:

@@ -77,6 +77,15 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         "no-reply": Kind(503, "A part did not answer", Category.LINK, retryable=True),
         "bad-reply": Kind(503, "A part talks nonsense", Category.LINK, retryable=True),
         "device-refused": Kind(503, "The device said no", Category.LINK),
+        "link-down": Kind(
+            503, "The gripper has no link", Category.LINK, retryable=True
+        ),
+        "storage-failed": Kind(
+            503, "The disk did not take it", Category.INTERNAL, retryable=True
+        ),
+        "storage-full": Kind(
+            507, "The disk is full", Category.PRECONDITION, retryable=True
+        ),
         "not-ready": Kind(503, "Not ready", Category.LINK, retryable=True),
     }
 )
@@ -167,5 +176,5 @@ class ProblemResponse(Response):
         document = found.model_dump(mode="json", exclude_none=True)
         # What cannot be UTF-8, a lone surrogate of the client, becomes its JSON escape.
         text = json.dumps(document, ensure_ascii=False, allow_nan=False)
-        body = text.encode("utf-8", "backslashreplace")
+        body = text.encode("utf-8", "backslashreplace") + b"\n"
         super().__init__(body, found.status, {**more, **(headers or {})})

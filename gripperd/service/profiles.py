@@ -96,12 +96,13 @@ async def make_profile(
     daemon: Daemon, given: GivenProfile, response: Response
 ) -> ProfileDocument:
     """Make a new profile."""
-    profile = _parsed(given, str(given.get("name")), daemon)
-    if profile.name in daemon.library:
-        message = f"there is a profile {profile.name} already"
-        hints = (f"PUT /v1/profiles/{profile.name} changes it",)
-        raise Refused(message, code="already-exists", hints=hints)
-    return _saved(profile, daemon, response)
+    async with daemon.library.changing:
+        profile = _parsed(given, str(given.get("name")), daemon)
+        if profile.name in daemon.library:
+            message = f"there is a profile {profile.name} already"
+            hints = (f"PUT /v1/profiles/{profile.name} changes it",)
+            raise Refused(message, code="already-exists", hints=hints)
+        return await _saved(profile, daemon, response)
 
 
 @routes.get("/profiles/{profile}")
@@ -123,20 +124,16 @@ async def save_profile(
     if_match: IfMatch = None,
 ) -> ProfileDocument:
     """Save a profile as its next version, or as a new one."""
-    new = profile not in daemon.library
-    if not new:
-        daemon.library.check_changeable(profile)
-        _check_unchanged(daemon.library.get(profile), if_match)
-    elif if_match:
-        message = f"there is no profile {profile} whose version could match"
-        raise Refused(message, code="changed-since")
-    named = given.setdefault("name", profile)
-    if named != profile:
-        message = f"the body names {named!r}, the path {profile!r}"
-        raise InputError(message, key="name")
-    if new:
-        response.status_code = 201
-    return _saved(_parsed(given, profile, daemon), daemon, response)
+    async with daemon.library.changing:
+        new = profile not in daemon.library
+        _check_seen(profile, if_match, daemon)
+        named = given.setdefault("name", profile)
+        if named != profile:
+            message = f"the body names {named!r}, the path {profile!r}"
+            raise InputError(message, key="name")
+        if new:
+            response.status_code = 201
+        return await _saved(_parsed(given, profile, daemon), daemon, response)
 
 
 @routes.delete("/profiles/{profile}", status_code=204)
@@ -144,10 +141,11 @@ async def remove_profile(
     daemon: Daemon, profile: str, if_match: IfMatch = None
 ) -> None:
     """Forget a profile."""
-    found = daemon.library.get(profile)
-    daemon.library.check_changeable(profile)
-    _check_unchanged(found, if_match)
-    daemon.library.remove(profile)
+    async with daemon.library.changing:
+        found = daemon.library.get(profile)
+        daemon.library.check_changeable(profile)
+        _check_unchanged(found, if_match)
+        await daemon.library.remove(profile)
 
 
 @routes.post("/profiles/{profile}/evaluate")
@@ -203,11 +201,23 @@ def _parsed(given: dict[str, Any], name: str, daemon: Context) -> Profile:
     return parse_profile(content | {"version": daemon.library.next_version(name)})
 
 
-def _saved(profile: Profile, daemon: Context, response: Response) -> ProfileDocument:
-    daemon.library.save(profile)
+async def _saved(
+    profile: Profile, daemon: Context, response: Response
+) -> ProfileDocument:
+    await daemon.library.save(profile)
     response.headers["etag"] = tag_of(profile)
     response.headers["location"] = f"/v1/profiles/{profile.name}"
     return _document(profile, daemon)
+
+
+def _check_seen(name: str, if_match: Sequence[str] | None, daemon: Context) -> None:
+    """Refuse to change an original, or what the client has not seen."""
+    if name in daemon.library:
+        daemon.library.check_changeable(name)
+        _check_unchanged(daemon.library.get(name), if_match)
+    elif if_match:
+        message = f"there is no profile {name} whose version could match"
+        raise Refused(message, code="changed-since")
 
 
 def _check_unchanged(profile: Profile, if_match: Sequence[str] | None) -> None:

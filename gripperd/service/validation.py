@@ -121,7 +121,8 @@ def _detail(error: "ErrorDetails", path: KeyPath, request: Request) -> str:
     if kind == "extra_forbidden":
         known = set(_keys(request, path[:-1]))
         if path[-1] in known:
-            return "does not go with this type"
+            # The second step names the alternative that the body's type chose.
+            return f"does not go with a {error['loc'][1]}"
         return f"is not a key here; {did_you_mean(str(path[-1]), known)}"
     if kind in WHOLE_BODY and not path:
         return ABSENT_BODY

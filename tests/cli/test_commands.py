@@ -1,8 +1,14 @@
 """The commands a person types, run for real."""
 
 import json
+import os
+import re
 import shutil
+import subprocess
+import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
 import httpx
@@ -10,7 +16,7 @@ import pytest
 
 from gripperd import __version__
 from gripperd.config import shipped
-from tests.daemon import Daemon, gripperd, running_daemon
+from tests.daemon import START, Daemon, gripperd, running_daemon, settings_file
 
 
 @pytest.fixture(scope="module")
@@ -131,3 +137,94 @@ def test_reproduce_writes_a_page(tmp_path: Path) -> None:
     assert said.returncode == 0, said.stderr
     assert (tmp_path / "paper" / "index.html").stat().st_size > 100_000
     assert "does not hold" in said.stdout
+
+
+@contextmanager
+def stranger(body: bytes) -> Iterator[str]:
+    """A web server that answers everything with one text."""
+
+    class Stranger(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self.send_response(200)
+            self.send_header("Content-Length", str(len(body)))
+            self.end_headers()
+            self.wfile.write(body)
+
+        def log_message(self, format: str, *args: object) -> None:
+            pass
+
+    with HTTPServer(("127.0.0.1", 0), Stranger) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+        thread.join()
+
+
+@pytest.mark.parametrize("body", [b"<html>", b"", b"[1]", b"{}", b"\xff"])
+def test_what_is_no_gripperd_is_named(body: bytes) -> None:
+    with stranger(body) as url:
+        said = gripperd("status", GRIPPERD_URL=url)
+    assert said.returncode == 1
+    (line,) = said.stderr.splitlines()
+    assert line.endswith("is no gripperd: status 200")
+
+
+@pytest.mark.parametrize(
+    "url",
+    [
+        "127.0.0.1:8765",
+        "localhost",
+        "",
+        "ftp://localhost",
+        "http://a:port",
+    ],
+)
+def test_an_address_that_is_none_is_wrong_use(url: str) -> None:
+    said = gripperd("status", "--url", url)
+    assert said.returncode == 2
+    (line,) = said.stderr.splitlines()
+    assert line.startswith("error: --url: ")
+
+
+def test_a_number_that_is_none_is_wrong_use(daemon: Daemon) -> None:
+    said = gripperd("grasp", "apple", "--force", "nan", GRIPPERD_URL=daemon.url)
+    assert said.returncode == 2
+    assert "Traceback" not in said.stderr
+
+
+def test_a_proxy_of_the_environment_is_not_asked(daemon: Daemon) -> None:
+    proxy = "http://127.0.0.1:9"
+    said = gripperd(
+        "status",
+        GRIPPERD_URL=daemon.url,
+        HTTP_PROXY=proxy,
+        http_proxy=proxy,
+        NO_PROXY="",
+    )
+    assert said.returncode == 0, said.stderr
+
+
+def test_the_service_listens_for_this_machine_alone() -> None:
+    said = gripperd("service", "--http", "0.0.0.0:0")
+    assert said.returncode == 2
+    assert "put a reverse proxy with authentication in front" in said.stderr
+
+
+@pytest.mark.parametrize(("journal", "stamped"), [("", True), ("8:1", False)])
+def test_the_journal_gets_no_time_stamps(
+    tmp_path: Path, journal: str, stamped: bool
+) -> None:
+    process = subprocess.Popen(
+        [*START, "bench", "--config", str(settings_file(tmp_path))],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"JOURNAL_STREAM": journal},
+    )
+    assert process.stderr is not None
+    with process.stderr as log:
+        line = log.readline()
+        process.terminate()
+        process.wait(30)
+    assert "bench listens" in line
+    assert (re.match(r"\d\d:\d\d:\d\d ", line) is not None) is stamped

@@ -135,6 +135,95 @@ def test_only_the_user_may_speak_to_control(tmp_path: Path) -> None:
         assert stat.S_IMODE((tmp_path / "run").stat().st_mode) == 0o700
 
 
+def test_a_file_that_breaks_takes_nothing_down(tmp_path: Path) -> None:
+    with running_daemon(tmp_path) as daemon:
+        held = hold_an_egg(daemon)
+        control = children(daemon.process)["control"]
+        settings = tmp_path / "gripperd.yaml"
+        good = settings.read_text()
+        settings.write_text("grippers: broken\n")
+        service = children(daemon.process)["service"]
+        os.kill(service, signal.SIGKILL)
+        until(lambda: children(daemon.process).get("service", service) != service)
+        # This life of the service ends with 78 before it serves.
+        until(lambda: "service" not in children(daemon.process))
+        assert daemon.process.poll() is None
+        folder = tmp_path / "state" / "profiles"
+        folder.mkdir(parents=True)
+        (folder / "plum.yaml").write_text("name: plum\nversion: many\n")
+        settings.write_text(good)
+        until(lambda: answers(daemon.url), 40)
+        assert children(daemon.process)["control"] == control
+        assert true_force(daemon) == pytest.approx(held, rel=0.05)
+        warnings = httpx.get(f"{daemon.url}/v1/info").json()["warnings"]
+        assert any(f"{folder}/plum.yaml:2: version" in warning for warning in warnings)
+    checked = gripperd("config", "check", str(settings))
+    assert checked.returncode == 0
+    assert f"warning: {folder}/plum.yaml:2: version" in checked.stdout
+
+
+def test_a_process_without_its_supervisor_does_not_start(tmp_path: Path) -> None:
+    settings = settings_file(tmp_path)
+    ended = gripperd("bench", "--config", str(settings), GRIPPERD_SUPERVISED="0")
+    assert ended.returncode == 1
+    assert "the supervisor, process 0, is not there any more" in ended.stderr
+    assert "Traceback" not in ended.stderr
+
+
+def a_file(folder: Path) -> None:
+    folder.write_text("")
+
+
+def a_link(folder: Path) -> None:
+    folder.with_name("elsewhere").mkdir()
+    folder.symlink_to(folder.with_name("elsewhere"))
+
+
+def a_linked_lock(folder: Path) -> None:
+    folder.mkdir(mode=0o700)
+    folder.with_name("precious").write_text("precious")
+    (folder / "lock").symlink_to(folder.with_name("precious"))
+
+
+def a_hard_lock(folder: Path) -> None:
+    folder.mkdir(mode=0o700)
+    folder.with_name("precious").write_text("precious")
+    (folder / "lock").hardlink_to(folder.with_name("precious"))
+
+
+def a_folder_as_socket(folder: Path) -> None:
+    (folder / "bench.notify").mkdir(parents=True)
+
+
+@pytest.mark.parametrize(
+    "occupy", [a_file, a_link, a_linked_lock, a_hard_lock, a_folder_as_socket]
+)
+def test_a_runtime_dir_that_is_not_ours_is_one_clear_line(
+    tmp_path: Path, occupy: Callable[[Path], None]
+) -> None:
+    occupy(tmp_path / "run")
+    ended = gripperd("run", "--config", str(settings_file(tmp_path)))
+    assert ended.returncode == 78
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("error: ")
+    assert str(tmp_path / "run") in line
+    if (tmp_path / "precious").exists():
+        assert (tmp_path / "precious").read_text() == "precious"
+
+
+@pytest.mark.parametrize("command", ["run", "bench", "control", "service"])
+def test_a_runtime_dir_that_is_too_long_is_one_clear_line(
+    tmp_path: Path, command: str
+) -> None:
+    settings = settings_file(tmp_path)
+    text = settings.read_text().replace(f"{tmp_path}/run", "r" * 100)
+    settings.write_text(text)
+    ended = gripperd(command, "--config", str(settings))
+    assert ended.returncode == 78
+    (line,) = ended.stderr.splitlines()
+    assert "at most 107 are possible" in line
+
+
 def test_an_unusable_configuration_ends_with_78(tmp_path: Path) -> None:
     settings = settings_file(tmp_path)
     settings.write_text(settings.read_text().replace("rate_Hz: 100", "rate_Hz: 5000"))

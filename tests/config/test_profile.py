@@ -87,7 +87,12 @@ def test_a_profile_file_becomes_a_profile_in_si(write: Write) -> None:
         ("version: 3", "version: 0", "version: 0 is below 1"),
         ("guessed", "''", "limits.source: is empty"),
         ("guessed", "12", "limits.source: 12 is not text; put it in quotes"),
-        ("crush: 1.3", "crush: 0.9", "margins.crush: 0.9 is below 1"),
+        (
+            "crush: 1.3",
+            "crush: 1.19",
+            "margins.crush: 1.19 is below 1.2; a grasp is broken off at 1.15 and"
+            " could not get there",
+        ),
         (
             "mode: force",
             "mode: forse",
@@ -261,7 +266,7 @@ def documents(draw: Callable[[st.SearchStrategy[object]], object]) -> object:
         "limits": {"damage_N": draw(decimal(1, 500_000)), "source": "a guess"},
         "margins": {
             "slip": draw(decimal(1000, 5000)),
-            "crush": draw(decimal(1000, 5000)),
+            "crush": draw(decimal(1200, 5000)),
         },
         "grasp": {
             "mode": draw(st.sampled_from(["force", "current"])),

@@ -314,3 +314,91 @@ def test_what_users_save_has_a_place_of_its_own(settings_file: Path) -> None:
     settings_file.write_text(settings_file.read_text() + "state_dir: kept\n")
     named = load_settings(settings_file, systemd).state_dir
     assert named == settings_file.parent / "kept"
+
+
+def test_a_service_that_others_can_reach_is_refused(
+    settings_file: Path, refusal: Refusal
+) -> None:
+    for host in ("0.0.0.0", "192.168.0.7", "gripper.local", "::"):
+        settings_file.write_text(
+            f'{GRIPPER}profiles: objects\nhttp: {{host: "{host}"}}\n'
+        )
+        (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
+        assert said == (
+            f'own.yaml:9: http.host: "{host}" is not a loopback address; access keys'
+            " are not there yet: put a reverse proxy with authentication in front"
+        )
+    for host in ("localhost", "127.0.0.2", "::1"):
+        settings_file.write_text(
+            f'{GRIPPER}profiles: objects\nhttp: {{host: "{host}"}}\n'
+        )
+        assert load_settings(settings_file, {}).http.host == host
+
+
+def test_one_bus_has_one_timeout(settings_file: Path, refusal: Refusal) -> None:
+    right = GRIPPER.removeprefix("grippers:\n").replace("left", "right")
+    right = right.replace("channel: 7", "channel: 6")
+    settings_file.write_text(GRIPPER + right + "profiles: objects\n")
+    assert len(load_settings(settings_file, {}).grippers) == 2
+    right = right.replace("250", "300")
+    settings_file.write_text(GRIPPER + right + "profiles: objects\n")
+    (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
+    assert said == (
+        "own.yaml:1: grippers: the bus at plc.local:502 is both asked with timeout_ms"
+        " 250 and asked with timeout_ms 300"
+    )
+
+
+def test_a_valve_that_its_module_cannot_drive_is_refused(
+    settings_file: Path, write: Write, refusal: Refusal
+) -> None:
+    write("rig.yaml", RIG.replace("current_mA: [4, 20]", "current_mA: [4, 21]"))
+    (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
+    assert said == (
+        "own.yaml:5: grippers.left.model: valve.current_mA ends at 21 mA,"
+        " waveshare_ao_8ch drives up to 20 mA"
+    )
+
+
+ON_BENCH = GRIPPER.replace('{tcp: "plc.local:502", timeout_ms: 250}', "bench").replace(
+    "channel: 7", "channel: 0"
+)
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "complaint"),
+    [
+        (SENSORS, "", "2: grippers.left: no input is given; the bench has its sensors"),
+        (
+            "unit: 1, channel: 0",
+            "unit: 1, channel: 3",
+            "4: grippers.left.output: channel 3: the bench has its valve on channel 0",
+        ),
+        (
+            "opening: {channel: 1",
+            "opening: {channel: 2",
+            "8: grippers.left.input: opening on channel 2: the bench has it on",
+        ),
+        ("      pressure: {channel: 0", "      pressure: {channel: 5", "8: grippers"),
+    ],
+)
+def test_a_gripper_on_the_bench_is_wired_as_the_bench_is(
+    settings_file: Path, refusal: Refusal, good: str, bad: str, complaint: str
+) -> None:
+    text = f"{ON_BENCH}{SENSORS}profiles: objects\n"
+    settings_file.write_text(text)
+    assert load_settings(settings_file, {}).grippers["left"].bus == BenchBus()
+    assert text.count(good) == 1
+    settings_file.write_text(text.replace(good, bad))
+    (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
+    assert said.startswith(f"own.yaml:{complaint}")
+
+
+def test_the_bench_is_one_rig(settings_file: Path, refusal: Refusal) -> None:
+    left = ON_BENCH + SENSORS
+    right = left.removeprefix("grippers:\n").replace("left", "right")
+    settings_file.write_text(f"{left}{right}profiles: objects\n")
+    (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
+    assert said == (
+        "own.yaml:1: grippers: the bench is both the rig of left and the rig of right"
+    )

@@ -12,6 +12,7 @@ from gripperd.control.grasp import Grasp
 from gripperd.control.gripper import Gripper
 from gripperd.control.ledger import Key
 from gripperd.control.profile import Mode, Profile
+from gripperd.control.senses import Senses
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.model import Chain
 from gripperd.protocol.live_zero import LoopScale
@@ -156,11 +157,12 @@ class Stage:
     def grasp(self, order: GraspOrder, seconds: float = 30.0) -> GraspResult:
         """One grasp without a gripper around it."""
         motion = Grasp(order, self.chain, self.rig.plant.current)
+        senses = Senses(self.chain)
         end = self.now + seconds
         while True:
             assert self.now < end, f"no outcome within {seconds:g} s"
             self.pass_time()
-            measured = self.measure()
+            measured = senses.judge(self.measure(), PERIOD)
             outcome = motion.step(measured, PERIOD)
             self.write(motion.ramp.current)
             if outcome is not None:

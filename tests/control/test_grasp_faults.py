@@ -1,4 +1,5 @@
 from collections.abc import Mapping
+from dataclasses import replace
 
 import pytest
 
@@ -131,3 +132,11 @@ def test_a_strong_valve_hardly_overshoots_a_force(
     result = grasped(stage, apple, Mode.FORCE, BenchFaults(valve_offset=80e3))
     assert result.outcome is Outcome.HELD
     assert stage.peak() < apple.force * 1.5
+
+
+def test_soft_and_tough_things_are_held_too(stage: Stage, profiles: Profiles) -> None:
+    # Foam: no valve could squeeze it to its limit.
+    foam = replace(
+        profiles["apple"], diameter=0.060, stiffness=2e3, damage_force=1000.0
+    )
+    assert grasped(stage, foam, Mode.FORCE).outcome is Outcome.HELD

@@ -64,11 +64,25 @@ def test_open_jaws_are_found_open(stage: Stage) -> None:
     assert stage.state.grip is Grip.RELEASED
 
 
-def test_jaws_closed_on_nothing_are_of_no_known_grip(stage: Stage) -> None:
+def test_jaws_closed_on_nothing_hold_no_part(stage: Stage) -> None:
     stage.rig.write_current(0.0107)
     stage.pass_time(2.0)
     stage.run(0.5)
+    assert stage.state.grip is Grip.NO_PART
+
+
+def test_without_sensors_nobody_knows_what_is_held_and_no_grasp_lets_go_of_it(
+    stage: Stage, apple: GraspOrder
+) -> None:
+    stage.rig.plant.faults = BenchFaults(broken=frozenset(Channel))
+    stage.rig.write_current(0.0107)
+    stage.run(0.5)
     assert stage.state.grip is Grip.UNKNOWN
+    with pytest.raises(Refused, match="not known what the jaws hold") as refused:
+        stage.submit(apple)
+    assert refused.value.hints == ("release first",)
+    stage.complete(None)
+    assert stage.submit(apple).status is Status.QUEUED
 
 
 def test_without_auto_enable_it_waits_to_be_enabled(
@@ -153,7 +167,7 @@ def test_a_reading_the_model_has_no_answer_to_ends_the_command_alone(
     command = ready.submit(apple)
     ready.run(0.5)
     # Jaws 250 mm apart: the strands of the braid would have to be longer than they are.
-    for _ in range(2):
+    for _ in range(4):
         absurd = replace(ready.measure(), grip=Reading(5.0), opening=Reading(0.25))
         ready.write(ready.gripper.period(absurd, PERIOD, ready.instant))
     assert ready.failure(command).code == "no-answer"
@@ -251,3 +265,47 @@ def test_enabling_moves_nothing(ready: Stage, apple: GraspOrder) -> None:
     ready.gripper.enable()
     ready.run(0.5)
     assert ready.writes == []
+
+
+def test_one_wild_force_sample_does_not_drop_the_egg(
+    ready: Stage, profiles: Profiles
+) -> None:
+    egg = profiles["raw_egg"]
+    ready.rig.plant.place(real(egg))
+    command = ready.submit(ordered(egg, Mode.FORCE))
+    ready.until(lambda: ready.command(command).phase == "verify")
+    wild = replace(ready.measure(), grip=Reading(99.0))
+    ready.write(ready.gripper.period(wild, PERIOD, ready.instant))
+    ready.until(lambda: ready.command(command).final)
+    assert ready.command(command).status is Status.SUCCEEDED
+
+
+def test_one_missing_force_sample_does_not_cost_the_size_check(
+    ready: Stage, profiles: Profiles
+) -> None:
+    ready.rig.plant.place(replace(real(profiles["apple"]), diameter=0.035))
+    command = ready.submit(ordered(profiles["apple"], Mode.FORCE))
+    ready.until(lambda: ready.command(command).phase == "touch")
+    for _ in range(6):
+        missing = replace(ready.measure(), grip=Reading.bad("the loop is broken"))
+        ready.write(ready.gripper.period(missing, PERIOD, ready.instant))
+    ready.until(lambda: ready.command(command).final)
+    assert ready.failure(command).code == "too_small"
+
+
+def test_what_a_person_disabled_a_lost_link_does_not_enable(ready: Stage) -> None:
+    ready.gripper.disable(ready.instant)
+    ready.gripper.link_lost("gone", ready.instant)
+    ready.run(0.5)
+    assert ready.state.machine is Machine.DISABLED
+
+
+def test_a_part_that_an_earlier_life_held_is_missed_when_it_is_gone(
+    holding: Stage,
+) -> None:
+    holding.gripper.link_lost("gone", holding.instant)
+    holding.run(0.2)
+    assert (holding.state.grip, holding.state.adopted) == (Grip.HOLDING, True)
+    holding.rig.plant.remove()
+    holding.run(0.2)
+    assert holding.state.grip is Grip.PART_LOST

@@ -7,6 +7,56 @@ MOVING = {Machine.EXECUTING}
 ENABLED = {Machine.READY, Machine.EXECUTING}
 
 
+PROMISED = """
+offline        link_up        attaching
+attaching      adopt          disabled
+attaching      stop           attaching
+disabled       enable         ready
+disabled       maintain       maintenance
+disabled       stop           disabled
+ready          start          executing
+ready          disable        disabled
+ready          stop           stopping
+executing      finish         ready
+executing      stop           stopping
+stopping       rest           ready
+stopping       stop           stopping
+fault_reaction reacted        fault
+fault_reaction stop           fault_reaction
+fault          reset          disabled
+fault          stop           fault
+estopped       estop_released disabled
+estopped       estop          estopped
+estopped       fail           estopped
+estopped       stop           estopped
+maintenance    maintained     disabled
+maintenance    stop           maintenance
+"""
+"""What the documents promise, besides: wherever there is a link, losing it leads to
+offline; and outside an emergency stop a fault to fault_reaction, an estop to estopped.
+"""
+
+
+def promised() -> dict[tuple[str, str], str]:
+    rows = (line.split() for line in PROMISED.strip().splitlines())
+    table = {(state, event): target for state, event, target in rows}
+    for state in set(Machine) - {Machine.OFFLINE}:
+        table[state, "link_lost"] = "offline"
+        if state is not Machine.ESTOPPED:
+            table[state, "fail"] = "fault_reaction"
+            table[state, "estop"] = "estopped"
+    return table
+
+
+def test_the_table_is_what_was_promised() -> None:
+    found = {
+        (str(state), str(event)): str(target)
+        for state, allowed in TRANSITIONS.items()
+        for event, target in allowed.items()
+    }
+    assert found == promised()
+
+
 @pytest.mark.parametrize("state", Machine)
 @pytest.mark.parametrize("event", Event)
 def test_every_pair_is_in_the_table_or_refused_with_hints(

@@ -2,7 +2,6 @@ import pytest
 
 from gripperd.control.states import Grip
 from gripperd.control.watch import GripWatch
-from gripperd.model import Chain
 from gripperd.signals import Measurement, Reading
 
 PERIOD = 0.01
@@ -23,24 +22,24 @@ def look(
     ("grip", "pressure", "seen"),
     [
         (Reading(5.0), Reading(100e3), Grip.HOLDING),
-        (Reading(0.0), Reading(100e3), Grip.UNKNOWN),
+        (Reading(0.0), Reading(100e3), Grip.NO_PART),
         (Reading(0.0), Reading(9.9e3), Grip.RELEASED),
-        (Reading(0.0), Reading(10.1e3), Grip.UNKNOWN),
+        (Reading(0.0), Reading(10.1e3), Grip.NO_PART),
         (BROKEN, Reading(0.0), Grip.RELEASED),
         (BROKEN, Reading(100e3), Grip.UNKNOWN),
         (BROKEN, BROKEN, Grip.UNKNOWN),
     ],
 )
 def test_what_the_jaws_are_seen_to_do(
-    chain: Chain, grip: Reading, pressure: Reading, seen: Grip
+    grip: Reading, pressure: Reading, seen: Grip
 ) -> None:
-    watch = GripWatch(chain)
+    watch = GripWatch()
     look(watch, grip, pressure, samples=3)
     assert watch.seen() is seen
 
 
-def test_a_part_is_lost_after_five_samples_without_contact(chain: Chain) -> None:
-    watch = GripWatch(chain)
+def test_a_part_is_lost_after_five_samples_without_contact() -> None:
+    watch = GripWatch()
     look(watch, Reading(5.0), samples=3)
     look(watch, Reading(0.0), samples=4)
     assert not watch.lost
@@ -48,8 +47,8 @@ def test_a_part_is_lost_after_five_samples_without_contact(chain: Chain) -> None
     assert watch.lost
 
 
-def test_a_part_that_is_felt_again_is_not_lost(chain: Chain) -> None:
-    watch = GripWatch(chain)
+def test_a_part_that_is_felt_again_is_not_lost() -> None:
+    watch = GripWatch()
     look(watch, Reading(5.0), samples=3)
     look(watch, Reading(0.0), samples=4)
     look(watch, Reading(5.0), samples=2)
@@ -57,8 +56,8 @@ def test_a_part_that_is_felt_again_is_not_lost(chain: Chain) -> None:
     assert not watch.lost
 
 
-def test_who_sees_nothing_claims_no_loss(chain: Chain) -> None:
-    watch = GripWatch(chain)
+def test_who_sees_nothing_claims_no_loss() -> None:
+    watch = GripWatch()
     look(watch, Reading(5.0), samples=3)
     look(watch, BROKEN, samples=100)
     assert not watch.lost

@@ -70,6 +70,7 @@ def test_no_body_breaks_the_decoder(body: bytes) -> None:
         errors.ReplyTimeout("no"),
         errors.BadReply("no"),
         errors.LinkError("no"),
+        errors.GripperdError("no"),
     ],
     ids=lambda error: type(error).__name__,
 )

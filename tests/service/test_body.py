@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from gripperd.service.body import parsed
 
+from .conftest import Daemon
+
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(),
     lambda inside: st.lists(inside) | st.dictionaries(st.text(), inside),
@@ -39,3 +41,10 @@ def test_what_is_wrong_is_placed(body: bytes, place: int, says: str) -> None:
 
 def test_a_key_may_stand_in_two_objects() -> None:
     assert parsed(b'[{"a": 1}, {"a": 2}]') == [{"a": 1}, {"a": 2}]
+
+
+def test_every_answer_in_json_is_a_line(daemon: Daemon) -> None:
+    for path in ("/v1/grippers", "/v1/grippers/g0", "/v1/info", "/v1/nothing"):
+        answer = daemon.http.get(path)
+        assert answer.text.endswith("}\n")
+        assert int(answer.headers["content-length"]) == len(answer.content)

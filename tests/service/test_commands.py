@@ -6,7 +6,7 @@ import httpx
 import pytest
 
 from .conftest import Daemon
-from .test_bad_input import COMMANDS, is_problem
+from .test_bad_input import COMMANDS, JSON, is_problem
 
 EGG = {"type": "grasp", "profile": "raw_egg"}
 LONG = {"prefer": "wait=30"}
@@ -60,15 +60,50 @@ def test_the_papers_current_is_accepted_in_both_shapes(daemon: Daemon) -> None:
         "type": "grasp",
         "params": {"profile": "raw_egg", "mode": "current", "current_mA": 10.7},
     }
-    key = {"idempotency-key": "both-shapes"}
-    first = daemon.http.post(COMMANDS, json=flat, headers=key)
-    second = daemon.http.post(COMMANDS, json=nested, headers=key)
+    for body in (flat, nested):
+        params = daemon.http.post(COMMANDS, json=body).json()["params"]
+        assert (params["mode"], params["current_mA"]) == ("current", 10.7)
+
+
+def test_a_request_that_is_sent_again_is_done_once(daemon: Daemon) -> None:
+    sent = [
+        b'{"type": "grasp", "profile": "raw_egg", "current_mA": 10.7}',
+        b'{ "current_mA":10.7, "profile":"raw_egg", "type":"grasp" }',
+    ]
+    headers = JSON | {"idempotency-key": "sent-again"}
+    first, second = (
+        daemon.http.post(COMMANDS, content=body, headers=headers) for body in sent
+    )
     assert (first.status_code, second.status_code) == (201, 200)
     assert second.json()["id"] == first.json()["id"]
     assert second.headers["idempotency-replayed"] == "true"
     assert "idempotency-replayed" not in first.headers
-    params = first.json()["params"]
-    assert (params["mode"], params["current_mA"]) == ("current", 10.7)
+
+
+def test_a_request_stays_the_same_when_its_profile_is_changed(daemon: Daemon) -> None:
+    where = "/v1/profiles/duck_egg"
+    egg = daemon.http.get("/v1/profiles/raw_egg").json() | {"name": "duck_egg"}
+    daemon.http.put(where, json=egg).raise_for_status()
+    asked, key = EGG | {"profile": "duck_egg"}, {"idempotency-key": "changed-profile"}
+    first = daemon.http.post(COMMANDS, json=asked, headers=key)
+    changed = daemon.http.put(
+        where, json=egg | {"mass_g": 60}, headers={"if-match": "*"}
+    )
+    changed.raise_for_status()
+    second = daemon.http.post(COMMANDS, json=asked, headers=key)
+    daemon.http.delete(where, headers={"if-match": "*"})
+    assert (second.status_code, second.json()["id"]) == (200, first.json()["id"])
+
+
+def test_a_key_without_a_request_is_no_defect(daemon: Daemon) -> None:
+    answer = daemon.http.post(COMMANDS, headers={"idempotency-key": "nothing"})
+    is_problem(answer, 422, "invalid")
+
+
+def test_a_release_takes_no_profile(daemon: Daemon) -> None:
+    body = {"type": "release", "profile": "raw_egg"}
+    found = is_problem(daemon.http.post(COMMANDS, json=body), 422, "invalid")
+    assert found["detail"] == "profile: does not go with a release"
 
 
 def test_a_key_cannot_stand_for_two_requests(daemon: Daemon) -> None:

@@ -6,11 +6,33 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
+from gripperd.errors import GripperdError
+from gripperd.link.frames import failed, raised
 from gripperd.service.failures import answer_failures
 from gripperd.service.server import serve
 
 from .conftest import Report, running
 from .test_bad_input import is_problem
+
+
+async def _beyond(report: Report) -> None:
+    """A service in front of a process that meets a defect."""
+    app = FastAPI()
+    answer_failures(app)
+
+    @app.get("/")
+    async def ask() -> None:
+        raise raised(failed(GripperdError("defect: secret")))
+
+    await serve(app, "127.0.0.1", 0, report)
+
+
+def test_a_defect_of_another_process_is_no_lost_link() -> None:
+    with running(_beyond) as url:
+        answer = httpx.get(url)
+    found = is_problem(answer, 500, "internal")
+    assert found["retryable"] is False
+    assert "secret" not in answer.text
 
 
 async def _defective(report: Report) -> None:

@@ -97,4 +97,11 @@ def test_a_gripper_without_a_link_says_so(settings: Settings, tmp_path: Path) ->
             assert "never measured" in measured["cause"]
         found = is_problem(http.get("/v1/health/ready"), 503, "not-ready")
         assert "g0 is offline" in found["detail"]
-        is_problem(http.post(COMMANDS, json={"type": "release"}), 409, "wrong-state")
+        for path, body in (
+            (COMMANDS, {"type": "release"}),
+            (f"{STATE}/stop", None),
+            (f"{STATE}/enable", None),
+        ):
+            found = is_problem(http.post(path, json=body), 503, "link-down")
+            assert found["detail"] == f"g0 is offline: {http.get(STATE).json()['link']}"
+            assert found["retryable"] is True

@@ -28,6 +28,10 @@ def test_every_error_of_ours_has_a_status_that_fits() -> None:
         errors.Refused("x", code="queue-full"): 429,
         errors.Refused("x", code="infeasible"): 422,
         errors.Refused("x", code="some-new-reason"): 409,
+        errors.Refused("x", code="link-down"): 503,
+        errors.Refused("x", code="storage-full"): 507,
+        errors.Refused("x", code="storage-failed"): 503,
+        errors.GripperdError("x"): 500,
     }
     for error, status in statuses.items():
         found = problem(code_of(error), str(error), instance="/")

@@ -1,9 +1,12 @@
 """Profiles: originals, versions, entity tags, dry runs."""
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
+
+from gripperd.config import Settings
 
 from .conftest import Daemon
 from .test_bad_input import is_problem
@@ -133,3 +136,36 @@ def test_a_dry_run_says_why_not(daemon: Daemon) -> None:
     # The paper's current holds the egg at 22.5 N if it does not yield.
     found = daemon.http.post(where, json={"current_mA": 10.7}).json()
     assert found["force_N"] == pytest.approx(22.5, abs=0.3)
+
+
+def test_a_disk_that_takes_nothing_changes_nothing(
+    daemon: Daemon, settings: Settings, mine: dict[str, Any]
+) -> None:
+    where = f"{PROFILES}/my_apple"
+    before = daemon.http.get(where).json()
+    file = settings.state_dir / "profiles" / "my_apple.yaml"
+    file.unlink()
+    file.mkdir()
+    try:
+        heavier = before | {"mass_g": 200}
+        refused = daemon.http.put(where, json=heavier, headers={"if-match": "*"})
+        is_problem(refused, 503, "storage-failed")
+        refused = daemon.http.delete(where, headers={"if-match": "*"})
+        is_problem(refused, 503, "storage-failed")
+    finally:
+        file.rmdir()
+    assert daemon.http.get(where).json() == before
+
+
+def test_of_two_savings_at_once_one_has_not_seen_the_other(
+    daemon: Daemon, mine: dict[str, Any]
+) -> None:
+    where = f"{PROFILES}/my_apple"
+    body = daemon.http.get(where).json()
+
+    def save(_: int) -> int:
+        headers = {"if-match": mine["etag"]}
+        return daemon.http.put(where, json=body, headers=headers).status_code
+
+    with ThreadPoolExecutor(4) as clients:
+        assert sorted(clients.map(save, range(4))) == [200, 412, 412, 412]

@@ -1,0 +1,57 @@
+"""What the jaws hold: as commanded, as found, as lost."""
+
+from gripperd.control.states import Grip
+from gripperd.control.watch import GripWatch
+from gripperd.signals import Measurement
+
+
+class Hold:
+    """The grip state of one gripper, and whose object it is."""
+
+    def __init__(self) -> None:
+        self.grip = Grip.UNKNOWN
+        self.profile: str | None = None
+        """Profile of what is held, if a grasp of this life took it."""
+        self._watch = GripWatch()
+
+    def update(self, measured: Measurement, dt: float) -> None:
+        """Take in the newest measurement."""
+        self._watch.update(measured, dt)
+
+    def adopt(self) -> None:
+        """Go by what is seen: nobody here brought it about."""
+        self.settle(self._watch.seen(), None)
+
+    def settle(self, grip: Grip, profile: str | None) -> None:
+        """Go by how a command began or ended."""
+        self.grip = grip
+        self.profile = profile if grip is Grip.HOLDING else None
+        self._watch.hold()
+
+    @property
+    def interrupted(self) -> Grip:
+        """Grip when a motion is cut short now."""
+        return self._watch.interrupted
+
+    def look(self, *, adopted: bool) -> None:
+        """See what was lost, and while the current is adopted, what has come."""
+        if self.grip is Grip.HOLDING and self._watch.lost:
+            self.settle(Grip.PART_LOST, None)
+        elif adopted and self.grip not in {Grip.HOLDING, Grip.PART_LOST}:
+            seen = self._watch.seen()
+            if seen is not self.grip:
+                self.settle(seen, None)
+
+    def objection(self, *, vented: bool) -> str | None:
+        """Why a grasp now could let go of something; None when it could not.
+
+        Parameters
+        ----------
+        vented
+            Whether the current is at the live zero, so that nothing can be held.
+        """
+        if self.grip is Grip.HOLDING:
+            return f"{self.profile or 'an object'} is being held"
+        if self.grip is Grip.UNKNOWN and not vented:
+            return "it is not known what the jaws hold"
+        return None
