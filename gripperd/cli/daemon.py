@@ -1,5 +1,6 @@
 """Commands that start the daemon or parts of it, and check its configuration."""
 
+import json
 import logging
 import os
 import sys
@@ -85,17 +86,29 @@ def check(
     config: Annotated[
         Path | None, typer.Argument(help="File to check; default as for run.")
     ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Check a configuration with everything it refers to; exit 78 if unusable."""
     from gripperd.cli.doubts import doubts
     from gripperd.config import load_settings
 
     settings = load_settings(config)
+    models = {name: one.chain.name for name, one in settings.grippers.items()}
+    warnings = list(doubts(settings))
+    if as_json:
+        facts = {
+            "source": str(settings.source),
+            "models": models,
+            "profiles": list(settings.profiles),
+            "warnings": warnings,
+        }
+        typer.echo(json.dumps(facts))
+        return
     typer.echo(f"{settings.source}: usable")
-    for name, gripper in settings.grippers.items():
-        typer.echo(f"  gripper {name}: model {gripper.chain.name}")
+    for name, model in models.items():
+        typer.echo(f"  gripper {name}: model {model}")
     typer.echo(f"  profiles: {', '.join(settings.profiles)}")
-    for warning in doubts(settings):
+    for warning in warnings:
         typer.echo(f"  warning: {warning}")
 
 

@@ -65,6 +65,9 @@ def test_the_shipped_configuration_is_usable() -> None:
     said = gripperd("config", "check")
     assert said.returncode == 0
     assert "gripper g0: model reference" in said.stdout
+    found = json.loads(gripperd("config", "check", "--json").stdout)
+    assert found["models"] == {"g0": "reference"}
+    assert found["warnings"] == []
 
 
 def test_a_grasp_from_the_command_line(daemon: Daemon) -> None:
