@@ -128,7 +128,7 @@ def profiles() -> Mapping[str, Profile]:
 def rig(chain: Chain) -> Rig:
     """A simulated rig with the sensors of the shipped configuration."""
     channels = {
-        name: Sensor(value_low=0.0, value_high=span, noise=5e-4)
+        name: Sensor(LoopScale(value_low=0.0, value_high=span), 5e-4)
         for name, span in SPANS.items()
     }
     return Rig(chain, Random(1), sensors=SensorSettings(**channels))

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from random import Random
 
+from gripperd.protocol.live_zero import LoopScale
+
 LOWEST = 3.8e-3
 HIGHEST = 20.5e-3
 """Where a healthy transmitter saturates, so that a failed one can be told from it
@@ -19,26 +21,18 @@ class Channel(StrEnum):
     GRIP = "grip"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Sensor:
-    """A transmitter with a straight line through two points."""
+    """A transmitter: a straight line, and the noise around it."""
 
-    value_low: float
-    """Value at the low end. [SI]"""
-    value_high: float
-    """Value at the high end. [SI]"""
-    current_low: float = 4e-3
-    """[A]"""
-    current_high: float = 20e-3
-    """[A]"""
+    scale: LoopScale
     noise: float = 1e-3
     """One sigma relative to the span. [-]"""
 
     def current(self, value: float, rng: Random) -> float:
         """Loop current at a value, to the microampere. [A]."""
-        span = self.current_high - self.current_low
-        part = (value - self.value_low) / (self.value_high - self.value_low)
-        current = self.current_low + span * (part + rng.gauss(0.0, self.noise))
+        span = self.scale.current_high - self.scale.current_low
+        current = self.scale.current(value) + span * rng.gauss(0.0, self.noise)
         return round(min(max(current, LOWEST), HIGHEST), 6)
 
 
@@ -46,11 +40,11 @@ class Sensor:
 class SensorSettings:
     """The three transmitters of the rig."""
 
-    pressure: Sensor = Sensor(value_low=0.0, value_high=600e3)
+    pressure: Sensor = Sensor(LoopScale(value_low=0.0, value_high=600e3))
     """Gauge pressure in the muscle. [Pa]"""
-    opening: Sensor = Sensor(value_low=0.0, value_high=0.1)
+    opening: Sensor = Sensor(LoopScale(value_low=0.0, value_high=0.1))
     """Distance between the jaws. [m]"""
-    grip: Sensor = Sensor(value_low=0.0, value_high=250.0)
+    grip: Sensor = Sensor(LoopScale(value_low=0.0, value_high=250.0))
     """Grip force per jaw. [N]"""
 
 

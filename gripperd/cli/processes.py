@@ -181,14 +181,7 @@ def _sensors(gripper: GripperSettings, noise: float) -> SensorSettings:
     for channel in Channel:
         wiring = gripper.input.sensors.get(channel)
         if wiring is not None:
-            scale = wiring.scale
-            sensor = Sensor(
-                value_low=scale.value_low,
-                value_high=scale.value_high,
-                current_low=scale.current_low,
-                current_high=scale.current_high,
-                noise=noise,
-            )
+            sensor = Sensor(wiring.scale, noise)
             settings = replace(settings, **{channel.value: sensor})
     return settings
 

@@ -15,14 +15,14 @@ BROKEN_ABOVE = 21.0e-3
 class LoopScale:
     """Straight line between loop current and quantity."""
 
-    current_low: float
-    """[A]"""
-    current_high: float
-    """[A]"""
     value_low: float
     """Quantity at `current_low`. [SI]"""
     value_high: float
     """Quantity at `current_high`. [SI]"""
+    current_low: float = 4e-3
+    """The live zero. [A]"""
+    current_high: float = 20e-3
+    """[A]"""
 
     def reading(self, current: float) -> Reading:
         """Quantity that a current stands for, or why there is none.

@@ -4,8 +4,9 @@ from statistics import fmean, stdev
 import pytest
 
 from gripperd.bench.sensors import Channel, Sensor, Sensors, SensorSettings
+from gripperd.protocol.live_zero import LoopScale
 
-PRESSURE = Sensor(value_low=0.0, value_high=600e3, noise=0.0)
+PRESSURE = Sensor(LoopScale(value_low=0.0, value_high=600e3), 0.0)
 VALUES = {Channel.PRESSURE: 300e3, Channel.OPENING: 0.05, Channel.GRIP: 125.0}
 
 
@@ -27,7 +28,7 @@ def test_a_transmitter_is_linear_and_saturates_as_namur_says(
 
 
 def test_noise_is_that_part_of_the_span() -> None:
-    noisy = Sensor(value_low=0.0, value_high=600e3, noise=0.002)
+    noisy = Sensor(LoopScale(value_low=0.0, value_high=600e3), 0.002)
     rng = Random(1)
     currents = [noisy.current(300e3, rng) for _ in range(4000)]
     assert fmean(currents) == pytest.approx(0.012, abs=3e-6)
@@ -36,9 +37,9 @@ def test_noise_is_that_part_of_the_span() -> None:
 
 def test_channels_come_in_the_order_of_the_module() -> None:
     settings = SensorSettings(
-        pressure=Sensor(value_low=0.0, value_high=400e3, noise=0.0),
-        opening=Sensor(value_low=0.0, value_high=0.1, noise=0.0),
-        grip=Sensor(value_low=0.0, value_high=1000.0, noise=0.0),
+        pressure=Sensor(LoopScale(value_low=0.0, value_high=400e3), 0.0),
+        opening=Sensor(LoopScale(value_low=0.0, value_high=0.1), 0.0),
+        grip=Sensor(LoopScale(value_low=0.0, value_high=1000.0), 0.0),
     )
     read = Sensors(settings, Random(0)).read(VALUES)
     assert read == (0.016, 0.012, 0.006)

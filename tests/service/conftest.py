@@ -28,6 +28,7 @@ from gripperd.link.bench import BenchDesk
 from gripperd.link.client import Client
 from gripperd.link.control import ControlDesk
 from gripperd.link.server import serve as serve_link
+from gripperd.protocol.live_zero import LoopScale
 from gripperd.service.app import create_app
 from gripperd.service.server import serve as serve_http
 
@@ -105,7 +106,7 @@ async def whole(settings: Settings, report: Report) -> None:
     (gripper,) = settings.grippers.values()
     assert gripper.input is not None
     # As in the shipped settings: the grip sensor spans 100 N.
-    grip = Sensor(value_low=0.0, value_high=100.0, noise=5e-4)
+    grip = Sensor(LoopScale(value_low=0.0, value_high=100.0), 5e-4)
     rig = Rig(gripper.chain, Random(1), sensors=SensorSettings(grip=grip))
     modules = Modules(
         rig,
