@@ -5,7 +5,8 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, NamedTuple
@@ -83,6 +84,14 @@ def found(lines: IO[str], pattern: str) -> tuple[str, ...]:
             return match.groups()
     message = f"the program ended before it said {pattern}"
     raise RuntimeError(message)
+
+
+def until(condition: Callable[[], bool], patience: float = 20.0) -> None:
+    """Wait for something that is bound to happen."""
+    end = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.02)
 
 
 def children(process: "subprocess.Popen[str]") -> dict[str, int]:

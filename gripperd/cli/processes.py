@@ -1,4 +1,4 @@
-"""The three processes of the program: bench, control, service.
+"""The processes that know no HTTP: bench and control.
 
 Each can be a systemd unit of its own; ``gripperd run`` starts and watches all of them.
 """

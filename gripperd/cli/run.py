@@ -74,7 +74,7 @@ async def _start_and_watch(
     url = service.facts["ADDRESS"]
     service.arguments += ["--http", url.removeprefix("http://")]
     console.print(f"service  {url}   try {url}/v1/grippers, {url}/docs")
-    notify(READY=1, STATUS=f"serving {url}", MAINPID=os.getpid())
+    notify(READY=1, STATUS=f"serving {url}")
     await supervise(children)
 
 

@@ -121,7 +121,7 @@ class Ledger:
 
     def newest(self, count: int) -> list[Command]:
         """The last commands, newest first."""
-        return list(reversed(self._commands.values()))[:count]
+        return list(islice(reversed(self._commands.values()), count))
 
     def next(self) -> Command | None:
         """Take the command that is due from the queue."""

@@ -75,11 +75,19 @@ class Chain:
         return self.static.muscle
 
     def varied(self, path: str, by: float) -> Self:
-        """Build the same chain with one constant moved; ``path`` as in `tolerances`.
+        """Build the same chain with one constant moved.
 
-        >>> from gripperd.config import reference_chain
-        >>> reference_chain().varied("muscle.diameter", 0.001).muscle.diameter
-        0.021
+        Parameters
+        ----------
+        path
+            Which one, as in `tolerances`.
+        by
+            How far. [SI]
+
+        Raises
+        ------
+        KeyError
+            There is no such part; a tolerance on it would count for nothing.
         """
         owner, _, constant = path.rpartition(".")
         if owner == "valve":
@@ -89,6 +97,8 @@ class Chain:
         if owner == "muscle":
             muscle = _moved(self.muscle, constant, by)
             return replace(self, static=replace(self.static, muscle=muscle))
+        if owner not in {f"effects.{effect.name}" for effect in self.static.effects}:
+            raise KeyError(path)
         effects = tuple(
             _moved(effect, constant, by)
             if owner == f"effects.{effect.name}"

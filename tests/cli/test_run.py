@@ -4,7 +4,6 @@ import os
 import signal
 import socket
 import stat
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -19,15 +18,8 @@ from tests.daemon import (
     running,
     running_daemon,
     settings_file,
+    until,
 )
-
-
-def until(condition: Callable[[], bool], patience: float = 20.0) -> None:
-    """Wait for something that is bound to happen."""
-    end = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < end, "it did not happen"
-        time.sleep(0.02)
 
 
 def answers(url: str) -> bool:

@@ -259,3 +259,8 @@ def test_a_varied_chain_differs_in_one_constant(
     assert value(varied) == pytest.approx(value(chain) + by)
     assert varied.varied(path, -by).name == chain.name
     assert value(chain.varied(path, 0.0)) == value(chain)
+
+
+def test_a_tolerance_on_nothing_is_an_error_not_a_zero(chain: Chain) -> None:
+    with pytest.raises(KeyError, match=r"effects\.creep\.amplitude"):
+        chain.varied("effects.creep.amplitude", 1.0)
