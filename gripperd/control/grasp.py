@@ -69,7 +69,7 @@ class Grasp:
         self._dwell = 0.0
         self._proof: Proof | None = None
         self._eased = False
-        self._blind, self._hard = 0.0, 0
+        self._blind = 0.0
         self._near, self._limit = self._plan.near, self._plan.closing_limit
         self._goal = self._safest = self._plan.goal
 
@@ -262,8 +262,7 @@ class Grasp:
     def _over_limit(self) -> bool:
         force = self._force.now.value
         highest = self.order.profile.damage_force / TRIP_MARGIN
-        self._hard = self._hard + 1 if force is not None and force > highest else 0
-        return self._hard >= 2
+        return force is not None and force > highest
 
     def _reduce(self) -> None:
         """Take the force back to the safe side: venting would drop the object."""

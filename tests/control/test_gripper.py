@@ -309,3 +309,32 @@ def test_a_part_that_an_earlier_life_held_is_missed_when_it_is_gone(
     holding.rig.plant.remove()
     holding.run(0.2)
     assert holding.state.grip is Grip.PART_LOST
+
+
+def test_a_short_silence_of_the_force_sensor_is_not_taken_for_an_object(
+    ready: Stage, apple: GraspOrder
+) -> None:
+    command = ready.submit(apple)
+    ready.until(lambda: ready.command(command).phase == "touch")
+    for _ in range(10):
+        ready.pass_time()
+        silent = replace(
+            ready.measure(),
+            grip=Reading.bad("the loop is broken"),
+            opening=Reading.bad("the loop is broken"),
+        )
+        ready.write(ready.gripper.period(silent, PERIOD, ready.instant))
+    ready.until(lambda: ready.command(command).final)
+    assert ready.failure(command).code == "no_object"
+
+
+def test_a_measurement_the_model_cannot_explain_is_told_in_the_log(
+    ready: Stage, profiles: Profiles
+) -> None:
+    egg = profiles["raw_egg"]
+    # The fixture's chain has no tolerances, so that any difference is beyond them.
+    ready.rig.plant.faults = BenchFaults(valve_offset=30e3)
+    ready.rig.plant.place(real(egg))
+    command = ready.complete(ordered(egg, Mode.FORCE))
+    assert command.status is Status.SUCCEEDED
+    assert "valve, air, sensor or model is off" in command.log[-1]

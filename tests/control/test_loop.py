@@ -261,3 +261,30 @@ async def test_an_older_write_never_follows_a_stop(
             stopped = await stopping
             await eventually(lambda: loop.state().machine is Machine.READY)
             assert plant.current == pytest.approx(stopped.current, abs=0.6e-6)
+
+
+async def test_a_current_the_module_cannot_give_ends_the_command_not_the_loop(
+    modules: Modules,
+    bench_address: TcpAddress,
+    chain: Chain,
+    wired: Wired,
+    order: GraspOrder,
+    eventually: Eventually,
+) -> None:
+    async with open_bus(bench_address) as bus:
+        rig = wired(bus)
+        weak = replace(rig._output.module, highest=0.005)
+        rig._output = replace(rig._output, module=weak)
+        ids = iter(range(9))
+        gripper = Gripper(
+            "g0", chain, auto_enable=True, identify=lambda: f"{next(ids)}"
+        )
+        loop = Loop(gripper, rig, period=0.01)
+        task = asyncio.create_task(loop.run())
+        await eventually(lambda: loop.state().machine is Machine.READY)
+        command, _ = loop.submit(order, SOON, None)
+        ended = await loop.wait(command.id, SOON)
+        assert ended.error is not None
+        assert "is outside 0 to 5 mA" in ended.error.message
+        await eventually(lambda: loop.state().machine is Machine.READY)
+        task.cancel()

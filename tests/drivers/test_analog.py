@@ -11,8 +11,18 @@ from gripperd.drivers.analog import AnalogRig, InputWiring, OutputWiring, Sensor
 from gripperd.drivers.bus import Bus, TcpAddress, open_bus
 from gripperd.errors import DeviceRefused, InputError, LinkLost
 from gripperd.protocol.live_zero import LoopScale
+from gripperd.protocol.modbus import (
+    Read,
+    Refusal,
+    decode_request,
+    encode_refusal,
+    encode_reply,
+    transaction_of,
+)
 from gripperd.protocol.modules import INPUTS, OUTPUTS
 from gripperd.signals import ABSENT, Quality
+
+from .peer import Behaviour, Line, connected
 
 Wired = Callable[[Bus], AnalogRig]
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
@@ -121,3 +131,49 @@ async def test_a_lost_bench_is_an_error_not_an_old_value(
         await eventually(lambda: not bus.up.is_set())
         with pytest.raises(LinkLost):
             await analog.read(1.0)
+
+
+def refusing(unit: int, refusal: Refusal, times: int) -> Behaviour:
+    """A module that is refused so often, and answers with zeros besides."""
+    left = times
+
+    def behave(line: Line, frame: bytes) -> None:
+        nonlocal left
+        request = decode_request(frame)
+        assert not isinstance(request, Refusal)
+        if request.unit == unit and left:
+            left -= 1
+            line.send(encode_refusal(frame, refusal))
+            return
+        zeros = (0,) * request.count if isinstance(request, Read) else ()
+        line.send(encode_reply(request, transaction_of(frame), zeros))
+
+    return behave
+
+
+@pytest.mark.parametrize("unit", [1, 2])
+async def test_a_busy_module_is_read_once_more(unit: int, wired: Wired) -> None:
+    async with connected(refusing(unit, Refusal.BUSY, times=1)) as (bus, peer):
+        measured = await wired(bus).read(0.0)
+        assert len(peer.requests) == 3
+    assert measured.current.quality is Quality.GOOD
+    # It was read: 0 mA is a broken loop, not a refusal.
+    assert "0.000 mA" in measured.grip.cause
+
+
+async def test_a_busy_module_is_never_written_again(wired: Wired) -> None:
+    async with connected(refusing(1, Refusal.BUSY, times=1)) as (bus, peer):
+        with pytest.raises(DeviceRefused):
+            await wired(bus).write(0.0107)
+        assert len(peer.requests) == 1
+
+
+async def test_an_input_module_that_refuses_leaves_the_valve_readable(
+    wired: Wired,
+) -> None:
+    async with connected(refusing(2, Refusal.DEVICE_FAILURE, times=9)) as (bus, _):
+        measured = await wired(bus).read(0.0)
+    assert measured.current.value == 0.0
+    for reading in (measured.pressure, measured.opening, measured.grip):
+        assert reading.quality is Quality.BAD
+        assert "device failure" in reading.cause
