@@ -14,6 +14,8 @@ from math import inf
 
 from gripperd.bench.settings import PlantSettings
 from gripperd.model import Direction, Linkage
+from gripperd.model.effect import GripperEffect
+from gripperd.model.loaded import LoadedLinkage
 
 REST_SPEED = 1e-9
 """Slower than this is standing still: the jaws settle within 25 ms at that point, so
@@ -21,10 +23,29 @@ REST_SPEED = 1e-9
 
 
 class Jaws:
-    """Where the jaws are, how fast, and how hard they press."""
+    """Where the jaws are, how fast, and how hard they press.
+
+    Parameters
+    ----------
+    linkage
+        Between muscle and jaws.
+    settings
+        The dynamics.
+    effects
+        What rubs and bends in the gripper. In the stretch of a series compliance the
+        share that the joints keep is left out.
+    """
 
     __slots__ = (
+        "_bending",
+        "_closing_stiffness",
+        "_contact",
         "_linkage",
+        "_loaded",
+        "_lost",
+        "_opening_stiffness",
+        "_ratio",
+        "_series",
         "_settings",
         "_stiffness",
         "_stop",
@@ -35,9 +56,20 @@ class Jaws:
         "velocity",
     )
 
-    def __init__(self, linkage: Linkage, settings: PlantSettings) -> None:
+    def __init__(
+        self,
+        linkage: Linkage,
+        settings: PlantSettings,
+        effects: tuple[GripperEffect, ...] = (),
+    ) -> None:
         self._linkage = linkage
         self._settings = settings
+        self._loaded = loaded = LoadedLinkage(linkage, effects)
+        self._series = loaded.series_compliance
+        self._bending = loaded.jaw_compliance + self._series * linkage.ratio
+        # Closing per shortening, with the stretch that the return spring costs.
+        self._ratio = linkage.ratio - self._series * linkage.spring_rate
+        self._lost = 0.0
         self._stop = linkage.open_width / linkage.ratio
         self.shortening = 0.0
         """Of the muscle; the jaws start at the open stop. [m]"""
@@ -53,6 +85,14 @@ class Jaws:
     @property
     def opening(self) -> float:
         """Distance between the jaws. [m]."""
+        linkage = self._linkage
+        spring = linkage.spring_preload + linkage.spring_rate * self.shortening
+        yielding = self._series * spring + self._bending * self.grip
+        return self.straight + self._lost + yielding
+
+    @property
+    def straight(self) -> float:
+        """Distance between the jaws without play or load. [m]."""
         return self._linkage.open_width - self._linkage.ratio * self.shortening
 
     def face(self, diameter: float, stiffness: float) -> None:
@@ -65,11 +105,24 @@ class Jaws:
         stiffness
             Grip force per jaw for a metre of yielding. [N/m]
         """
-        ratio = self._linkage.ratio
-        self._touch = (self._linkage.open_width - diameter) / ratio
-        self._stiffness = stiffness * ratio * ratio
+        linkage, loaded = self._linkage, self._loaded
+        stretched = self._series * linkage.spring_preload
+        self._contact = linkage.open_width + stretched - diameter
+        in_series = stiffness / (1 + stiffness * self._bending)
+        self._stiffness = in_series * self._ratio * linkage.ratio
+        closing, opening = (
+            float(loaded.joints(self._stiffness, way))
+            for way in (Direction.CONTRACTING, Direction.EXTENDING)
+        )
+        self._closing_stiffness, self._opening_stiffness = closing, opening
         if not stiffness:
-            self._touch = inf
+            self._contact = inf
+        self.lose(self._lost)
+
+    def lose(self, motion: float) -> None:
+        """Let the jaws stand apart by more than linkage and load say. [m]."""
+        self._lost = motion
+        self._touch = (self._contact + motion) / self._ratio
         self.grip = self._grip()
 
     def step(self, contracting: float, extending: float, dt: float) -> None:
@@ -90,9 +143,9 @@ class Jaws:
             - linkage.spring_preload
             - linkage.spring_rate * start
         )
-        velocity = self._velocity(push + contracting, dt)
+        velocity = self._velocity(push + contracting, self._closing_stiffness, dt)
         if velocity < REST_SPEED:
-            velocity = self._velocity(push + extending, dt)
+            velocity = self._velocity(push + extending, self._opening_stiffness, dt)
             if velocity > -REST_SPEED:
                 self.velocity = 0.0
                 return
@@ -112,7 +165,7 @@ class Jaws:
         depth = self.shortening - self._touch
         return depth * self._stiffness / self._linkage.ratio if depth > 0.0 else 0.0
 
-    def _velocity(self, force: float, dt: float) -> float:
+    def _velocity(self, force: float, stiffness: float, dt: float) -> float:
         """Speed at the end of a step; `force` is what acts if the jaws stay. [m/s]."""
         settings = self._settings
         resistance = (
@@ -124,9 +177,9 @@ class Jaws:
         depth = self.shortening - self._touch
         if depth + velocity * dt <= 0.0:
             return velocity
-        force -= self._stiffness * depth
-        loss = self._stiffness * settings.pad_loss
+        force -= stiffness * depth
+        loss = stiffness * settings.pad_loss
         if depth < 0.0:
             # The pads resist only that part of the step which lies in the object.
             force -= loss * depth / dt
-        return force / (resistance + self._stiffness * dt + loss)
+        return force / (resistance + stiffness * dt + loss)

@@ -4,13 +4,17 @@ from math import isfinite
 
 from gripperd.bench.air import Air
 from gripperd.bench.faults import HEALTHY, BenchFaults
+from gripperd.bench.hidden import HiddenEffects, lively
 from gripperd.bench.jaws import Jaws
+from gripperd.bench.logbook import Logbook, Moment
 from gripperd.bench.object import BenchObject
 from gripperd.bench.placed import ObjectState, PlacedObject
 from gripperd.bench.pull import PullTable
 from gripperd.bench.settings import PlantSettings
 from gripperd.errors import InputError
-from gripperd.model import Chain, Direction
+from gripperd.model import Chain, Direction, StaticMuscle
+from gripperd.model.effect import acts_in_gripper
+from gripperd.model.track import Track
 from gripperd.units import MILLI
 
 
@@ -23,7 +27,8 @@ class Plant:
     Parameters
     ----------
     chain
-        The static physics, with whatever effects act in the muscle.
+        The static physics, with whatever effects act in it; those of the sensors are
+        the business of the rig.
     settings
         The dynamics.
     """
@@ -32,19 +37,30 @@ class Plant:
         self._chain = chain
         self._settings = settings
         self._air = Air(settings)
-        self._jaws = Jaws(chain.linkage, settings)
-        linkage = chain.linkage
-        shut = float(linkage.contraction(0.0, chain.muscle.rest_length))
-        self._pull = PullTable(chain.static, chain.regulator.pressure_high, shut)
+        linkage, muscle = chain.linkage, chain.muscle
+        gripper = tuple(filter(acts_in_gripper, chain.effects))
+        self._jaws = Jaws(linkage, settings, gripper)
+        shut = float(linkage.contraction(0.0, muscle.rest_length))
+        hidden = lively(chain.static.effects, muscle)
+        tabled = (each for each in chain.static.effects if each not in hidden)
+        static = StaticMuscle(muscle, tuple(tabled))
+        self._pull = PullTable(static, chain.regulator.pressure_high, shut)
+        effects = HiddenEffects(chain)
+        self._hidden = effects if effects.any else None
+        self._logbook = Logbook(chain, settings)
         self._placed: PlacedObject | None = None
         self._faults = HEALTHY
         self._current = 0.0
         self._drag = 0.0
+        self._supply = 0.0
+        self._wanted = 0.0
         self._target = 0.0
         self._at_rest = False
         self._resume()
         self.time = 0.0
         """Since power-up. [s]"""
+        if self._hidden:
+            self._hidden.begin(self._wanted, self._jaws.straight, self.track(0.0))
 
     @property
     def current(self) -> float:
@@ -160,14 +176,23 @@ class Plant:
         if self._at_rest:
             return
         air, jaws = self._air, self._jaws
+        hidden = self._hidden
+        now = self.track(dt) if hidden else None
+        if hidden and now:
+            self._target = self._within_supply(hidden.pressure(self._wanted, now))
         air.step(self._target, self._faults.leak_rate, dt)
         contracting, extending = self._pull.at(air.chamber, self.contraction)
+        if hidden and now:
+            contracting, extending = hidden.pulls(contracting, extending, now)
         # A muscle cannot push; the friction of the linkage is there all the same.
         jaws.step(
             max(0.0, contracting) - self._drag,
             max(0.0, extending) + self._drag,
             dt,
         )
+        if hidden and now:
+            jaws.lose(hidden.lost(jaws.straight, now))
+            hidden.settle(self._target, contracting, extending)
         placed = self._placed
         if placed:
             stiffness = placed.stiffness
@@ -176,8 +201,30 @@ class Plant:
                 jaws.face(placed.kind.diameter, placed.stiffness)
                 return
         self._at_rest = (
-            air.settled and jaws.velocity == 0.0 and (not placed or placed.at_rest)
+            air.settled
+            and jaws.velocity == 0.0
+            and (not placed or placed.at_rest)
+            and (not hidden or hidden.steady)
         )
+
+    def track(self, step: float) -> Track:
+        """The present as effects see it, one sample after a time step. [s]."""
+        jaws = self._jaws
+        linkage, length = self._chain.linkage, self._chain.muscle.rest_length
+        contraction = self.contraction
+        moment = Moment(
+            time=self.time,
+            step=step,
+            command=self._wanted,
+            pressure=self._air.chamber,
+            contraction=contraction,
+            rate=jaws.velocity / length,
+            direction=float(jaws.direction),
+            force=float(linkage.muscle_force(jaws.grip, contraction, length)),
+            grip=jaws.grip,
+            supply=self._supply,
+        )
+        return self._logbook.track(moment)
 
     def _resume(self) -> None:
         """Find out what the regulator is after, and move on."""
@@ -188,5 +235,10 @@ class Plant:
         supply = faults.supply_pressure
         if supply is None:
             supply = self._settings.supply_pressure
-        self._target = max(0.0, min(wanted + faults.valve_offset, supply))
+        self._wanted, self._supply = wanted, supply
+        self._target = self._within_supply(wanted)
         self._at_rest = False
+
+    def _within_supply(self, pressure: float) -> float:
+        """What the supply allows of a pressure that the regulator is after. [Pa]."""
+        return max(0.0, min(pressure + self._faults.valve_offset, self._supply))

@@ -4,10 +4,12 @@ from collections import deque
 from random import Random
 from typing import NamedTuple
 
+from gripperd.bench.active import ActiveEffects
 from gripperd.bench.plant import Plant
 from gripperd.bench.sensors import Channel, Sensors, SensorSettings
 from gripperd.bench.settings import PlantSettings
 from gripperd.model import Chain
+from gripperd.model.effect import acts_in_sensor
 
 STEP = 1e-3
 """Step of the plant. [s]"""
@@ -38,7 +40,7 @@ class Rig:
     Parameters
     ----------
     chain
-        The static physics.
+        The physics; of the effects in sensors, those count that there is a channel for.
     rng
         Where the sensor noise comes from.
     settings
@@ -58,6 +60,13 @@ class Rig:
         self.plant = Plant(chain, settings or PlantSettings())
         self.trace: deque[Sample] = deque(maxlen=TRACE_LENGTH)
         self._sensors = Sensors(sensors or SensorSettings(), rng)
+        wrong = tuple(filter(acts_in_sensor, chain.effects))
+        self._wrong = {
+            channel: ActiveEffects(e for e in wrong if e.signal.value == channel.value)
+            for channel in Channel
+            if any(each.signal.value == channel.value for each in wrong)
+        }
+        self._shown = self._misread(0.0) if self._wrong else {}
 
     def advance(self, to: float) -> None:
         """Catch up with a time, in whole steps; a time already passed is no step. [s].
@@ -70,6 +79,8 @@ class Rig:
         while due > 0:
             steps = due if plant.at_rest else 1
             plant.step(steps * STEP)
+            if self._wrong:
+                self._shown = self._misread(steps * STEP)
             due -= steps
             if due % TRACE_STEPS == 0:
                 self._record()
@@ -86,13 +97,25 @@ class Rig:
 
     def read_inputs(self) -> tuple[float, float, float]:
         """Sample the sensors: pressure, opening, grip. [A, A, A]."""
-        plant, faults = self.plant, self.plant.faults
-        values = {
+        faults = self.plant.faults
+        values = self._true() | self._shown
+        return self._sensors.read(values, broken=faults.broken, frozen=faults.frozen)
+
+    def _true(self) -> dict[Channel, float]:
+        plant = self.plant
+        return {
             Channel.PRESSURE: plant.pressure,
             Channel.OPENING: plant.opening,
             Channel.GRIP: plant.grip,
         }
-        return self._sensors.read(values, broken=faults.broken, frozen=faults.frozen)
+
+    def _misread(self, step: float) -> dict[Channel, float]:
+        """What the sensors with effects show after a time step. [SI]."""
+        now, true = self.plant.track(step), self._true()
+        return {
+            channel: effects.along(true[channel], now)
+            for channel, effects in self._wrong.items()
+        }
 
     def _record(self) -> None:
         plant = self.plant

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from gripperd.model.effect import ROOM
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlantSettings:
@@ -30,3 +32,7 @@ class PlantSettings:
     """How long the grip has to be steady before the object is lifted. [s]"""
     lift_acceleration: float = 2.0
     """Acceleration of the carried object, on top of gravity. [m/s²]"""
+    temperature: float = ROOM
+    """Of the muscle. [K]"""
+    ambient_pressure: float = 101_325.0
+    """Absolute pressure of the air around. [Pa]"""

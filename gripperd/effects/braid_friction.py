@@ -13,6 +13,7 @@ from enum import StrEnum
 from typing import ClassVar
 
 from gripperd.model import Muscle, MuscleState
+from gripperd.model.kinds import InMuscle
 from gripperd.model.real import Real, positive_part
 
 
@@ -26,13 +27,19 @@ class Form(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class BraidFriction:
+class BraidFriction(InMuscle):
     """Friction against the direction of travel, growing with pressure and area.
 
     Shows in data as a loop in contraction whose width grows with pressure.
     """
 
     name: ClassVar[str] = "braid_friction"
+    needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
+    shows: ClassVar[str] = (
+        "a loop between force and contraction whose width grows with pressure and area"
+    )
+    confused_with: ClassVar[tuple[str, ...]] = ("pressure_friction", "coulomb_friction")
+    remedy: ClassVar[str] = "add the friction between bladder and braid to the model"
     form: Form = Form.REBRACED
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:

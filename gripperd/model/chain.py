@@ -4,62 +4,27 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import hypot, isfinite
-from typing import TYPE_CHECKING, Self, TypeVar
+from typing import Self
 
 from gripperd.errors import DomainError, InputError
-from gripperd.model.effect import Direction
+from gripperd.model.constant import moved, moved_among
+from gripperd.model.effect import Direction, Effect, acts_in_gripper, acts_in_valve
 from gripperd.model.linkage import Linkage
+from gripperd.model.loaded import LoadedLinkage
 from gripperd.model.muscle import Muscle
-from gripperd.model.real import Real, positive_part
+from gripperd.model.outlet import Outlet
+from gripperd.model.prediction import Prediction
+from gripperd.model.pressed import RIGID, PressedObject
+from gripperd.model.real import Real
 from gripperd.model.regulator import Regulator
 from gripperd.model.root import falling_root
 from gripperd.model.static import StaticMuscle
 from gripperd.units import MILLI
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-Part = TypeVar("Part", bound="DataclassInstance")
-
-RIGID = float("inf")
-"""Stiffness of an object that does not yield. [N/m]"""
-
-
-@dataclass(frozen=True, slots=True)
-class PressedObject:
-    """What stands between the jaws."""
-
-    diameter: float
-    """Distance between the jaws at first contact. [m]"""
-    stiffness: float = RIGID
-    """Grip force per jaw for a metre of yielding. [N/m]"""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Prediction:
-    """Everything the chain says about one grasp at one current. SI values."""
-
-    current: float
-    pressure: float
-    opening: float
-    contraction: float
-    muscle_force: float
-    """Signed pull; below 0 the muscle is slack. [N]"""
-    spring_force: float
-    grip_force: float
-    """Force of each jaw on the object, 0 when the jaws do not reach it. [N]"""
-    grip_std: float
-    """Standard deviation of the grip force from the tolerances. [N]"""
-    direction: Direction
-    reaches: bool
-    """Whether the jaws press on the object at all."""
-    extrapolated: bool
-    """Whether the muscle works outside the range it is specified for."""
-
 
 @dataclass(frozen=True)
 class Chain:
-    """Regulator, muscle with its effects, and linkage, with their tolerances."""
+    """Regulator, muscle and linkage with their effects and their tolerances."""
 
     name: str
     static: StaticMuscle
@@ -68,6 +33,21 @@ class Chain:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     """One sigma of each constant known only to within that, by path, such as
     ``muscle.diameter``. [SI]"""
+    effects: tuple[Effect, ...] = ()
+    """Those of valve, gripper and sensors; those of the muscle are in `static`.
+
+    Predictions are of what settles, so memory and sensors do not count in them."""
+
+    @cached_property
+    def outlet(self) -> Regulator | Outlet:
+        """Current to pressure and back, with the effects of the valve."""
+        effects = tuple(filter(acts_in_valve, self.effects))
+        return Outlet(self.regulator, effects) if effects else self.regulator
+
+    @cached_property
+    def _loaded(self) -> LoadedLinkage | None:
+        effects = tuple(filter(acts_in_gripper, self.effects))
+        return LoadedLinkage(self.linkage, effects) if effects else None
 
     @property
     def muscle(self) -> Muscle:
@@ -91,21 +71,19 @@ class Chain:
         """
         owner, _, constant = path.rpartition(".")
         if owner == "valve":
-            return replace(self, regulator=_moved(self.regulator, constant, by))
+            return replace(self, regulator=moved(self.regulator, constant, by))
         if owner == "gripper":
-            return replace(self, linkage=_moved(self.linkage, constant, by))
+            return replace(self, linkage=moved(self.linkage, constant, by))
         if owner == "muscle":
-            muscle = _moved(self.muscle, constant, by)
+            muscle = moved(self.muscle, constant, by)
             return replace(self, static=replace(self.static, muscle=muscle))
-        if owner not in {f"effects.{effect.name}" for effect in self.static.effects}:
+        acting = {each.name for each in self.static.effects}
+        acting |= {each.name for each in self.effects}
+        if owner not in {f"effects.{name}" for name in acting}:
             raise KeyError(path)
-        effects = tuple(
-            _moved(effect, constant, by)
-            if owner == f"effects.{effect.name}"
-            else effect
-            for effect in self.static.effects
-        )
-        return replace(self, static=replace(self.static, effects=effects))
+        inside = moved_among(self.static.effects, path, by)
+        static = replace(self.static, effects=inside)
+        return replace(self, static=static, effects=moved_among(self.effects, path, by))
 
     def grip_force(
         self,
@@ -128,11 +106,25 @@ class Chain:
         -------
         Signed force, below 0 where the spring holds the jaws off. [N]
         """
+        return self.grip_at(self.outlet.pressure(current), opening, direction)
+
+    def grip_at(
+        self,
+        pressure: Real,
+        opening: Real,
+        direction: Real = Direction.CONTRACTING,
+    ) -> Real:
+        """Force of each jaw as :meth:`grip_force`, at a pressure in the muscle. [N]."""
         length = self.muscle.rest_length
+        if self._loaded:
+            return self._loaded.grip_force(
+                lambda h: self.static.tension(pressure, h, direction),
+                opening,
+                direction,
+                length,
+            )
         contraction = self.linkage.contraction(opening, length)
-        pressure = self.regulator.pressure(current)
-        force = self.static.force(pressure, contraction, direction)
-        tension = positive_part(force)
+        tension = self.static.tension(pressure, contraction, direction)
         return self.linkage.grip_force(tension, contraction, length)
 
     def current(
@@ -141,13 +133,33 @@ class Chain:
         opening: Real,
         direction: Real = Direction.CONTRACTING,
     ) -> Real:
-        """Valve current for a force of each jaw at an opening, in closed form. [A]."""
+        """Valve current for a force of each jaw at an opening. [A].
+
+        In closed form, unless there are effects in the valve.
+
+        Raises
+        ------
+        DomainError
+            When neither muscle nor valve can do that.
+        """
         length = self.muscle.rest_length
-        contraction = self.linkage.contraction(opening, length)
+        contraction = self.contraction(opening, grip_force, direction)
+        if self._loaded:
+            grip_force = self._loaded.joints(grip_force, direction)
         force = self.linkage.muscle_force(grip_force, contraction, length)
-        return self.regulator.current(
-            self.static.pressure(force, contraction, direction)
-        )
+        return self.outlet.current(self.static.pressure(force, contraction, direction))
+
+    def contraction(
+        self,
+        opening: Real,
+        grip_force: Real = 0.0,
+        direction: Real = Direction.CONTRACTING,
+    ) -> Real:
+        """Contraction at which the jaws are this far apart under a grip force. [-]."""
+        length = self.muscle.rest_length
+        if self._loaded:
+            return self._loaded.contraction(opening, grip_force, direction, length)
+        return self.linkage.contraction(opening, length)
 
     def grip_on(
         self,
@@ -215,8 +227,8 @@ class Chain:
         grip = max(signed, 0.0)
         opening = pressed.diameter - grip / pressed.stiffness
         length = self.muscle.rest_length
-        contraction = float(self.linkage.contraction(opening, length))
-        pressure = float(self.regulator.pressure(current))
+        contraction = float(self.contraction(opening, signed, direction))
+        pressure = float(self.outlet.pressure(current))
         return Prediction(
             current=current,
             pressure=pressure,
@@ -276,7 +288,3 @@ class Chain:
                 f" they open {self.linkage.open_width / MILLI:g} mm"
             )
             raise DomainError(message, key="diameter_mm")
-
-
-def _moved(whole: Part, constant: str, by: float) -> Part:
-    return replace(whole, **{constant: getattr(whole, constant) + by})

@@ -5,9 +5,11 @@ Symbols: contraction ``h = (L_N - L) / L_N``, braid angle ``θ`` between strand 
 
 References
 ----------
-.. [1] "Study on static characteristics of pneumatic muscles", eqs. (1)-(4).
+.. [1] "Study on static characteristics of pneumatic muscles", eqs. (1)-(5).
 .. [2] C.-P. Chou, B. Hannaford, "Measurement and modeling of McKibben pneumatic
        artificial muscles", IEEE Trans. Robot. Autom. 12(1), 90-102, 1996.
+.. [3] A. Martens, I. Boblan, "Modeling the static force of a Festo pneumatic muscle
+       actuator", Actuators 6(4), 33, 2017: the two terms of eq. (5), with E = E(L).
 """
 
 from dataclasses import dataclass
@@ -45,6 +47,11 @@ class Muscle:
             3 * area / tan(self.braid_angle) ** 2,
             area / sin(self.braid_angle) ** 2,
         )
+
+    @property
+    def radial_area(self) -> float:
+        """What eq. (4) takes off per pressure, π D_N²/(4 sin²θ0) = l²/(4πn²). [m²]."""
+        return self._pull[1]
 
     @cached_property
     def cot_squared(self) -> float:
@@ -127,6 +134,31 @@ class Muscle:
         axial, radial = self._pull
         length = 1 - contraction
         return axial * (length * length) - radial
+
+    def elastic_force(self, contraction: Real, diameter_ratio: Real) -> Real:
+        r"""Elastic force of the bladder, eq. (5).
+
+        .. math:: F_s = E t \pi D_0 \left\{ \frac{(1-h)^2}{\tan^2\theta_0}
+                  \left(1 - \frac{1}{s}\right) + h s \right\}
+
+        The first term is the hoop, carried to the axis by the braid; the second is
+        the axial stress. Thin wall of constant thickness, linear rubber.
+
+        Parameters
+        ----------
+        contraction
+            Shortening relative to rest. [-]
+        diameter_ratio
+            The diameter there, as :meth:`diameter_ratio` gives it. [-]
+
+        Returns
+        -------
+        Force towards rest length: positive when shortened. [N]
+        """
+        length = 1 - contraction
+        hoop = self.cot_squared * (length * length) * (1 - 1 / diameter_ratio)
+        axial = contraction * diameter_ratio
+        return self.rubber_stiffness * (hoop + axial)
 
     def volume(self, contraction: Real) -> Real:
         """Volume inside the braid, ``π D² L / 4`` with eqs. (1)-(3). [m³]."""

@@ -1,16 +1,26 @@
-"""Pull of a muscle at standstill: eq. (7), and pressure from pull in closed form."""
+"""Pull of a muscle at standstill: eq. (7), and pressure from pull."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gripperd.errors import DomainError
-from gripperd.model.effect import Direction, MuscleEffect, MuscleState
+from gripperd.model.effect import Direction, MuscleState, StaticEffect
 from gripperd.model.muscle import CATALOGUE_RANGE, Muscle
 from gripperd.model.real import Real, chunked, everywhere, positive_part
+from gripperd.model.root import falling_root, falling_roots
+from gripperd.units import KILO
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 PROBE = 1e5
 """Step over which a slope in pressure is taken; any would do, it is affine. [Pa]"""
+
+VACUUM, HIGHEST = -100e3, 1e6
+"""Gauge pressures between which a pull is sought when the force is not affine; fluidic
+muscles take 0.8 MPa (Festo DMSP). [Pa]"""
 
 
 @dataclass(frozen=True)
@@ -22,7 +32,7 @@ class StaticMuscle:
     """
 
     muscle: Muscle
-    effects: tuple[MuscleEffect, ...] = ()
+    effects: tuple[StaticEffect, ...] = ()
 
     def state(self, pressure: Real, contraction: Real, direction: Real) -> MuscleState:
         """Everything the effects may ask for at one point.
@@ -93,10 +103,14 @@ class StaticMuscle:
         contraction: Real,
         direction: Real = Direction.CONTRACTING,
     ) -> Real:
-        """Gauge pressure for a pull: eq. (7) solved for p, in closed form.
+        """Gauge pressure for a pull: eq. (7) solved for p.
 
-        The force rises with pressure in straight pieces that meet at the kinks of the
-        effects, so the inverse is walked piece by piece.
+        With affine effects the force is made of straight pieces that meet at their
+        kinks, and the inverse is closed: the pieces are walked down from the highest.
+        With others it is sought between :data:`VACUUM` and :data:`HIGHEST`.
+
+        Where several pressures give the same pull, as below a threshold, it is one of
+        them; in closed form the highest.
 
         Parameters
         ----------
@@ -114,9 +128,12 @@ class StaticMuscle:
         Raises
         ------
         DomainError
-            Where pressure no longer makes the muscle pull.
+            Where pressure no longer makes the muscle pull, or none that a muscle
+            takes makes it pull so hard.
         """
-        return self._pressure(force, contraction, direction)
+        if all(effect.affine for effect in self.effects):
+            return self._pressure(force, contraction, direction)
+        return self._sought(force, contraction, direction)
 
     @chunked
     def _pressure(self, force: Real, contraction: Real, direction: Real) -> Real:
@@ -131,15 +148,39 @@ class StaticMuscle:
                 f" muscle pull; without friction that ends at {self.muscle.spent:.4f}"
             )
             raise DomainError(message, key="contraction")
-        pressure = kinks[0] - positive_part(forces[0] - force) * PROBE / fall
-        for index in range(len(kinks) - 1):
+        pressure = kinks[-1] + (force - forces[-1]) * PROBE / rise
+        least = forces[-1]
+        for index in range(len(kinks) - 2, -1, -1):
             step = forces[index + 1] - forces[index]
             run = kinks[index + 1] - kinks[index]
-            excess = positive_part(force - forces[index])
-            inside = excess - positive_part(excess - step)
             # Where two kinks coincide there is nothing to walk: 0 / 1, not 0 / 0.
-            pressure = pressure + inside * run / (step + (step == 0))
-        return pressure + positive_part(force - forces[-1]) * PROBE / rise
+            back = (forces[index + 1] - force) * run / (step + (step == 0))
+            pressure = _either(force < least, kinks[index + 1] - back, pressure)
+            least = _either(forces[index] < least, forces[index], least)
+        below = kinks[0] - (forces[0] - force) * PROBE / fall
+        return _either(force < least, below, pressure)
+
+    @chunked
+    def _sought(self, force: Real, contraction: Real, direction: Real) -> Real:
+        def lacking(pressure: Real) -> Real:
+            return force - self._force(pressure, contraction, direction)
+
+        weakest, strongest = lacking(VACUUM), lacking(HIGHEST)
+        beyond = (weakest < 0) | (strongest > 0)
+        if np.any(beyond):
+            asked, held = (
+                np.broadcast_to(value, np.shape(beyond))[beyond].flat[0]
+                for value in (force, contraction)
+            )
+            message = (
+                f"at contraction {held:.4g} no pressure from {VACUUM / KILO:g} to"
+                f" {HIGHEST / KILO:g} kPa makes the muscle pull {asked:.4g} N"
+            )
+            raise DomainError(message, key="contraction")
+        if isinstance(weakest, np.ndarray):
+            ends = (np.full_like(weakest, end) for end in (VACUUM, HIGHEST))
+            return falling_roots(lacking, *ends)
+        return falling_root(lambda p: float(lacking(p)), VACUUM, HIGHEST)
 
     def _check(self, contraction: Real) -> None:
         straight = self.muscle.straight
@@ -157,7 +198,7 @@ class StaticMuscle:
             raise DomainError(message, key="contraction")
 
     def _kinks(self, contraction: Real) -> list[Real]:
-        """Pressures between which the force is affine, rising; at least one."""
+        """Pressures between which an affine force is straight, rising; at least one."""
         ratio = self.muscle.diameter_ratio(contraction)
         kinks: list[Real] = [
             kink
@@ -172,3 +213,11 @@ class StaticMuscle:
         """Tell whether a contraction lies outside what the muscle is specified for."""
         low, high = CATALOGUE_RANGE
         return not low <= contraction <= high
+
+
+def _either(
+    condition: "bool | np.bool_ | NDArray[np.bool_]", yes: Real, no: Real
+) -> Real:
+    if isinstance(condition, np.ndarray):
+        return np.where(condition, yes, no)
+    return yes if condition else no

@@ -10,7 +10,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from gripperd.config.section import Section
 from gripperd.errors import InputError
 from gripperd.model import Chain, Direction, Prediction, PressedObject
-from gripperd.model.chain import RIGID
+from gripperd.model.pressed import RIGID
 from gripperd.service.body import disagreement, router
 from gripperd.service.context import Daemon
 from gripperd.service.rendering import GIVEN, MEASURED, Document, to

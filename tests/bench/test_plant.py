@@ -2,7 +2,7 @@ from dataclasses import replace
 from math import cos, pi, radians, sin, sqrt, tan
 
 import pytest
-from scipy.optimize import brentq  # type: ignore[import-untyped]
+from scipy.optimize import brentq
 
 from gripperd.bench.faults import BenchFaults
 from gripperd.bench.object import BenchObject

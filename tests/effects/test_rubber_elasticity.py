@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import quad  # type: ignore[import-untyped]
+from scipy.integrate import quad
 
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model import Direction, Muscle, MuscleState

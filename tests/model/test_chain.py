@@ -7,10 +7,17 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.optimize import brentq  # type: ignore[import-untyped]
+from scipy.optimize import brentq
 
 from gripperd.effects.braid_friction import BraidFriction, Form
+from gripperd.effects.jaw_compliance import JawCompliance
+from gripperd.effects.linkage_friction import LinkageFriction
+from gripperd.effects.pressure_sensor_gain import PressureSensorGain
 from gripperd.effects.rubber_elasticity import RubberElasticity
+from gripperd.effects.series_compliance import SeriesCompliance
+from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.effects.valve_nonlinearity import ValveNonlinearity
+from gripperd.effects.valve_offset import ValveOffset
 from gripperd.errors import DomainError, InputError
 from gripperd.model import Chain, Direction, PressedObject, StaticMuscle
 
@@ -264,3 +271,112 @@ def test_a_varied_chain_differs_in_one_constant(
 def test_a_tolerance_on_nothing_is_an_error_not_a_zero(chain: Chain) -> None:
     with pytest.raises(KeyError, match=r"effects\.creep\.amplitude"):
         chain.varied("effects.creep.amplitude", 1.0)
+
+
+ALL_ALONG = (
+    ValveOffset(offset=4e3),
+    ValveNonlinearity(bow=6e3),
+    LinkageFriction(loss=0.08),
+    JawCompliance(compliance=2e-5),
+    SeriesCompliance(compliance=5e-6),
+    PressureSensorGain(error=0.1),
+)
+
+
+@given(current=CURRENTS, diameter=SIZES, stiffness=STIFFNESSES, direction=DIRECTIONS)
+def test_with_effects_everywhere_the_current_for_a_grip_gives_that_grip(
+    chain: Chain,
+    current: float,
+    diameter: float,
+    stiffness: float,
+    direction: Direction,
+) -> None:
+    rig, pressed = replace(chain, effects=ALL_ALONG), PressedObject(diameter, stiffness)
+    assume(rig.grip_force(current, 0.0, direction) < stiffness * diameter)
+    grip = rig.grip_on(current, pressed, direction)
+    if grip > 0:
+        again = rig.current_for(grip, pressed, direction)
+        assert again == pytest.approx(current, rel=1e-9)
+
+
+def test_a_valve_that_gives_more_grips_as_with_more_current(chain: Chain) -> None:
+    # 5 kPa are 0.16 mA of a line of 31.25 kPa a milliampere.
+    offset = replace(chain, effects=(ValveOffset(offset=5e3),))
+    pressed = PressedObject(0.041)
+    more = chain.predict(PAPER_CURRENT + 0.16e-3, pressed)
+    seen = offset.predict(PAPER_CURRENT, pressed)
+    assert seen.grip_force == pytest.approx(more.grip_force, rel=1e-12)
+    assert seen.pressure == pytest.approx(209_375 + 5e3)
+    assert offset.outlet.pressure(PAPER_CURRENT) == seen.pressure
+
+
+def test_joints_that_rub_take_their_share_of_the_grip(chain: Chain) -> None:
+    rubbing = replace(chain, effects=(LinkageFriction(loss=0.1),))
+    for direction, kept in ((Direction.CONTRACTING, 0.9), (Direction.EXTENDING, 1.1)):
+        free = chain.grip_force(PAPER_CURRENT, 0.05, direction)
+        assert rubbing.grip_force(PAPER_CURRENT, 0.05, direction) == pytest.approx(
+            kept * float(free)
+        )
+
+
+def test_fingers_that_bend_are_a_softer_object_to_the_muscle(chain: Chain) -> None:
+    # 1/k of the object, 0.1 mm/N, and 0.02 mm/N of the fingers.
+    bending = replace(chain, effects=(JawCompliance(compliance=2e-5),))
+    seen = bending.predict(PAPER_CURRENT, PressedObject(0.058, 1e4))
+    softer = chain.predict(PAPER_CURRENT, PressedObject(0.058, 1 / 1.2e-4))
+    assert seen.grip_force == pytest.approx(softer.grip_force, rel=1e-9)
+    assert seen.contraction == pytest.approx(softer.contraction, rel=1e-9)
+    assert seen.opening == pytest.approx(0.058 - seen.grip_force / 1e4)
+
+
+def test_with_effects_the_forces_of_a_prediction_are_in_balance(chain: Chain) -> None:
+    rig = replace(chain, effects=ALL_ALONG)
+    seen = rig.predict(PAPER_CURRENT, PressedObject(0.058, 5000.0))
+    before_joints = seen.grip_force / 0.92
+    assert seen.muscle_force == pytest.approx(4 * before_joints + seen.spring_force)
+    bent = 2e-5 * seen.grip_force + 5e-6 * seen.muscle_force
+    assert seen.opening == pytest.approx(0.085 - seen.contraction + bent)
+
+
+def test_a_current_is_refused_for_a_pressure_the_supply_cannot_give(
+    chain: Chain,
+) -> None:
+    short = replace(chain, effects=(SupplySaturation(share=1.0, limit=0.5),))
+    pressed = PressedObject(0.058)
+    possible = short.predict(0.020, pressed).grip_force
+    assert short.current_for(possible - 0.1, pressed) < 0.0121
+    with pytest.raises(DomainError, match="supply_saturation"):
+        short.current_for(possible + 0.1, pressed)
+
+
+def test_sensors_do_not_change_what_is(chain: Chain) -> None:
+    misread = replace(chain, effects=(PressureSensorGain(error=0.1),))
+    pressed = PressedObject(0.041, 1e4)
+    assert misread.predict(PAPER_CURRENT, pressed) == chain.predict(
+        PAPER_CURRENT, pressed
+    )
+
+
+def test_a_known_pressure_grips_like_the_current_that_gives_it(chain: Chain) -> None:
+    for rig in (chain, replace(chain, effects=ALL_ALONG)):
+        pressure = rig.outlet.pressure(PAPER_CURRENT)
+        assert rig.grip_at(pressure, 0.05) == rig.grip_force(PAPER_CURRENT, 0.05)
+
+
+def test_constants_of_effects_outside_the_muscle_may_be_uncertain(
+    chain: Chain,
+) -> None:
+    rig = replace(
+        chain,
+        effects=(ValveOffset(offset=4e3), LinkageFriction(loss=0.1)),
+        tolerances={"effects.linkage_friction.loss": 0.01},
+    )
+    varied = rig.varied("effects.linkage_friction.loss", 0.05)
+    offset, friction = varied.effects
+    assert offset == ValveOffset(offset=4e3)
+    assert isinstance(friction, LinkageFriction)
+    assert friction.loss == pytest.approx(0.15)
+    free = float(
+        replace(chain, effects=rig.effects[:1]).grip_force(PAPER_CURRENT, 0.05)
+    )
+    assert rig.std(PAPER_CURRENT, PressedObject(0.05)) == pytest.approx(0.01 * free)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq  # type: ignore[import-untyped]
+from scipy.optimize import brentq
 
 from gripperd.effects.braid_friction import BraidFriction, Form
 from gripperd.effects.rubber_elasticity import RubberElasticity

@@ -16,10 +16,10 @@ from gripperd.errors import DomainError
 from gripperd.model import (
     Direction,
     Muscle,
-    MuscleEffect,
     MuscleState,
     StaticMuscle,
 )
+from gripperd.model.effect import StaticEffect
 from gripperd.model.real import Real
 
 PRESSURES = st.floats(-50e3, 800e3)
@@ -32,13 +32,15 @@ class Plateau:
     """A share of the ideal pull that is lost between two pressures: two kinks."""
 
     name: ClassVar[str] = "plateau"
+    affine: ClassVar[bool] = True
     low: float
     high: float
+    share: float = 0.6
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """Minus six tenths of the pull gained between `low` and `high`. [N]."""
+        """Minus its share of the pull gained between `low` and `high`. [N]."""
         inside = np.clip(at.pressure, self.low, self.high) - self.low
-        force: Real = -0.6 * inside * muscle.pull_area(at.contraction)
+        force: Real = -self.share * inside * muscle.pull_area(at.contraction)
         return force
 
     def kinks(
@@ -48,7 +50,25 @@ class Plateau:
         return (self.low + 0.0 * contraction, self.high + 0.0 * contraction)
 
 
-EFFECTS: list[tuple[MuscleEffect, ...]] = [
+@dataclass(frozen=True, slots=True)
+class Bow:
+    """A tenth of the ideal pull is lost at 1 MPa, and with the square of pressure."""
+
+    name: ClassVar[str] = "bow"
+    affine: ClassVar[bool] = False
+
+    def force(self, at: MuscleState, muscle: Muscle) -> Real:
+        """Minus a parabola. [N]."""
+        return -0.1e-6 * at.pressure * at.pressure * muscle.pull_area(at.contraction)
+
+    def kinks(
+        self, contraction: Real, diameter_ratio: Real, muscle: Muscle
+    ) -> tuple[Real, ...]:
+        """None, though it bends everywhere."""
+        return ()
+
+
+EFFECTS: list[tuple[StaticEffect, ...]] = [
     (),
     (RubberElasticity(),),
     (BraidFriction(),),
@@ -56,6 +76,8 @@ EFFECTS: list[tuple[MuscleEffect, ...]] = [
     (RubberElasticity(), BraidFriction(Form.AS_PRINTED)),
     (RubberElasticity(), BraidFriction(), Plateau(40e3, 300e3)),
     (Plateau(-10e3, 100e3), BraidFriction(), Plateau(100e3, 500e3)),
+    (RubberElasticity(), BraidFriction(), Bow()),
+    (Bow(), Plateau(40e3, 300e3)),
 ]
 
 
@@ -67,7 +89,7 @@ EFFECTS: list[tuple[MuscleEffect, ...]] = [
 )
 def test_the_pressure_for_a_pull_gives_that_pull(
     muscle: Muscle,
-    effects: tuple[MuscleEffect, ...],
+    effects: tuple[StaticEffect, ...],
     pressure: float,
     contraction: float,
     direction: Direction,
@@ -81,7 +103,7 @@ def test_the_pressure_for_a_pull_gives_that_pull(
 @pytest.mark.parametrize("effects", EFFECTS)
 @pytest.mark.parametrize("direction", Direction)
 def test_an_array_and_its_points_agree_both_ways(
-    muscle: Muscle, effects: tuple[MuscleEffect, ...], direction: Direction
+    muscle: Muscle, effects: tuple[StaticEffect, ...], direction: Direction
 ) -> None:
     static = StaticMuscle(muscle, effects)
     pressure, contraction = (
@@ -217,3 +239,61 @@ def test_an_array_outside_the_geometry_is_refused_without_a_warning(
 def test_a_muscle_without_length_is_refused(static: StaticMuscle) -> None:
     with pytest.raises(DomainError, match="no length left"):
         static.force(3e5, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("pull", "pressure"),
+    [(-10e3, -10e3), (30e3, 230e3), (70e3, 270e3), (100e3, 300e3), (3e5, 5e5)],
+)
+def test_of_several_pressures_for_a_pull_it_is_the_highest(
+    muscle: Muscle, pull: float, pressure: float
+) -> None:
+    """The pull rises to 100 kPa, is gone at 200 kPa, and rises again."""
+    dip, nothing = Plateau(100e3, 200e3, share=2.0), Plateau(50e3, 400e3, share=0.0)
+    static = StaticMuscle(muscle, (dip, nothing))
+    area = muscle.pull_area(0.1)
+    assert static.pressure(pull * area, 0.1) == pytest.approx(pressure)
+    assert static.pressure(np.array([pull]) * area, 0.1) == pytest.approx(pressure)
+
+
+@pytest.mark.parametrize("inner", [(), (BraidFriction(),), (Plateau(20e3, 40e3, 0.0),)])
+def test_where_pressure_does_nothing_there_is_nothing_to_walk(
+    muscle: Muscle, inner: tuple[StaticEffect, ...]
+) -> None:
+    static = StaticMuscle(
+        muscle, (RubberElasticity(), Plateau(0.0, 100e3, share=1.0), *inner)
+    )
+    for pressure in (-20e3, 130e3):
+        force = static.force(pressure, 0.1)
+        assert static.pressure(force, 0.1) == pytest.approx(pressure, abs=1e-3)
+
+
+@pytest.mark.parametrize("force", [-1000.0, 5000.0])
+def test_a_pull_that_no_muscle_gives_is_refused(muscle: Muscle, force: float) -> None:
+    static = StaticMuscle(muscle, (Bow(),))
+    message = (
+        f"at contraction 0.1 no pressure from -100 to 1000 kPa makes the muscle pull"
+        f" {force:.4g} N"
+    )
+    with pytest.raises(DomainError, match=message):
+        static.pressure(force, 0.1)
+    with pytest.raises(DomainError, match=message):
+        static.pressure(np.array([100.0, force]), np.array([[0.0], [0.1]])[1])
+
+
+def test_many_pulls_at_many_lengths_are_solved_at_once(muscle: Muscle) -> None:
+    static = StaticMuscle(muscle, (Bow(),))
+    pressure = np.linspace(0, 8e5, 100)[:, np.newaxis]
+    contraction = np.linspace(-0.03, 0.25, 90)
+    force = static.force(pressure, contraction)
+    found = np.asarray(static.pressure(force, contraction))
+    assert found.shape == (100, 90)
+    assert np.abs(found - pressure).max() < 1e-4
+
+
+def test_a_pull_that_is_not_a_number_has_no_pressure(muscle: Muscle) -> None:
+    for effects in ((), (Bow(),)):
+        static = StaticMuscle(muscle, effects)
+        assert math.isnan(float(static.pressure(math.nan, 0.1)))
+        pressures = np.asarray(static.pressure(np.array([math.nan, 0.0]), 0.1))
+        assert np.isnan(pressures).tolist() == [True, False]

@@ -1,0 +1,75 @@
+"""Creep of the rubber: the force goes on changing after a step.
+
+References
+----------
+.. [1] J. D. Ferry, "Viscoelastic Properties of Polymers", 3rd ed., Wiley, 1980,
+       chapter 1: generalised Maxwell element, a series of exponentials (Prony series).
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gripperd.model.kinds import InMuscle
+from gripperd.model.memory import begin, lag
+from gripperd.model.parameter import amplitude, shape
+from gripperd.model.track import Array, Track
+
+SPACING = 6.0
+"""Ratio of neighbouring time constants. Three terms this far apart follow a
+logarithmic law over two decades within 4 % of its rise. [-]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Creep(InMuscle):
+    r"""Part of the ideal pull comes late, with a series of time constants.
+
+    .. math:: F = F_0 - \sum_{i=0}^{2} a_i (u - u_i), \quad
+              \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
+              u = p \left[A(0) + l (A(h) - A(0))\right]
+
+    with the leverage l of the length on what creeps: 1 when the pull itself does, 0
+    when the bladder creeps under pressure alone. Once settled it adds nothing.
+    """
+
+    name: ClassVar[str] = "creep"
+    needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
+    shows: ClassVar[str] = (
+        "after a step the force drifts one way for seconds to minutes, while pressure"
+        " and length stand still"
+    )
+    confused_with: ClassVar[tuple[str, ...]] = (
+        "valve_lag", "force_sensor_drift", "leak", "presliding_hysteresis",
+    )  # fmt: skip
+    remedy: ClassVar[str] = (
+        "wait until the grip has settled before judging it, or press a little harder"
+        " at first"
+    )
+
+    fast: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
+    """Share of the pull that is late by the shortest time constant. [-]"""
+    medium: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
+    """Share that is late by the next. [-]"""
+    slow: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
+    """Share that is late by the longest. [-]"""
+    time: float = shape(unit="s", starts=(2.0, 0.7, 5.0), low=0.2, high=60.0)
+    """Shortest time constant. [s]"""
+    leverage: float = shape(unit=None, starts=(1.0, 0.0), low=-0.5, high=1.5)
+    """How much of the loss of leverage with contraction the creep shares. [-]"""
+
+    def rest(self) -> Array:
+        """Three lags that begin settled."""
+        return begin(3)
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Take from the pull what has not come yet."""
+        rest = track.muscle.pull_area(0.0)
+        area = rest + self.leverage * (track.pull_area - rest)
+        load = np.asarray(track.pressure * area)
+        late = np.zeros_like(load)
+        for index, share in enumerate((self.fast, self.medium, self.slow)):
+            time = self.time * SPACING**index
+            state = memory[index : index + 1]
+            late += share * (load - lag(load, track.step, time, time, state))
+        return value - late

@@ -1,0 +1,52 @@
+"""First inflation after a rest: rubber that has yet to soften and to settle.
+
+References
+----------
+.. [1] L. Mullins, "Softening of rubber by deformation", Rubber Chem. Technol. 42(1),
+       339-362, 1969.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gripperd.model.kinds import InMuscle
+from gripperd.model.parameter import amplitude, shape
+from gripperd.model.track import Array, Track
+
+
+@dataclass(frozen=True, slots=True)
+class FirstCycle(InMuscle):
+    r"""The pull of a first inflation differs by a share and by a force.
+
+    .. math:: F = F_0 + w (a F_0 + b)
+
+    What is first depends on what undoes the softening: with ``after = 0`` it never
+    comes back, and ``w = 1`` in the first inflation of the recording alone; with
+    ``after = 1`` a pause is enough, and ``w = 1`` in the first sweep of every row of
+    repeats. Between them the two count in proportion. A prediction is that of a
+    muscle that has been inflated before.
+    """
+
+    name: ClassVar[str] = "first_cycle"
+    needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
+    shows: ClassVar[str] = (
+        "the first inflation differs from the same sweep run again, and no later one"
+        " does"
+    )
+    confused_with: ClassVar[tuple[str, ...]] = ("fatigue", "creep")
+    remedy: ClassVar[str] = "inflate the muscle a few times before work"
+
+    gain: float = amplitude(unit=None, scale=0.05, low=-0.5, high=0.5)
+    """Share of the pull that the first has on top, a. [-]"""
+    offset: float = amplitude(unit="N", scale=10.0, low=-200.0, high=200.0)
+    """Force that the first has on top, b. [N]"""
+    after: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
+    """Whether the rest before a row of repeats makes its first sweep a first. [-]"""
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Pull with what the first inflation has on top. [N]."""
+        ever = np.where(track.cycle < 1, 1 - self.after, 0.0)
+        row = np.where(track.repeat == 0, self.after, 0.0)
+        return value + (ever + row) * (self.gain * value + self.offset)

@@ -1,0 +1,58 @@
+"""Friction in the joints of the linkage, in proportion to the load.
+
+References
+----------
+.. [1] C. A. Coulomb, "Théorie des machines simples", 1785: friction is in proportion
+       to the load.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gripperd.model.effect import Signal
+from gripperd.model.kinds import InGripper
+from gripperd.model.parameter import amplitude
+from gripperd.model.real import Real
+from gripperd.model.track import Array, Track
+
+
+@dataclass(frozen=True, slots=True)
+class LinkageFriction(InGripper):
+    r"""The joints keep a share of what they carry.
+
+    .. math:: N = N_0 (1 - \lambda d) - \kappa d F
+
+    with d the direction: some joints carry the grip, some the whole pull of the muscle,
+    most of which goes into the return spring.
+    """
+
+    name: ClassVar[str] = "linkage_friction"
+    needs: ClassVar[frozenset[str]] = frozenset({"grip", "force", "contraction"})
+    shows: ClassVar[str] = (
+        "at the same pull of the muscle the grip is weaker closing and stronger"
+        " opening, in proportion to it"
+    )
+    confused_with: ClassVar[tuple[str, ...]] = ("linkage_backlash", "coulomb_friction")
+    remedy: ClassVar[str] = "grease or replace the joints of the jaws"
+
+    loss: float = amplitude(unit=None, scale=0.05, low=0.0, high=0.9)
+    """Share of the grip that is lost closing and won opening. [-]"""
+
+    pull_loss: float = amplitude(unit=None, scale=0.01, low=0.0, high=0.5)
+    """Grip force lost per pull of the muscle. [-]"""
+
+    @property
+    def signal(self) -> Signal:
+        """The grip."""
+        return Signal.GRIP
+
+    def transmitted(self, grip: Real, direction: Real) -> Real:
+        """Grip force behind the joints. [N]."""
+        return grip * (1 - self.loss * direction)
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Grip force of each moment. [N]."""
+        rubbing = self.pull_loss * track.direction * np.fmax(track.force, 0.0)
+        return np.asarray(self.transmitted(value, track.direction) - rubbing)

@@ -1,0 +1,70 @@
+"""Memory of contraction: strands that bend before they slip on each other.
+
+References
+----------
+.. [1] T. Vo-Minh, T. Tjahjowidodo, H. Ramon, H. Van Brussel, "A new approach to
+       modeling hysteresis in a pneumatic artificial muscle using the Maxwell-slip
+       model", IEEE/ASME Trans. Mechatronics 16(1), 177-186, 2011.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from gripperd.model.effect import MuscleState
+from gripperd.model.kinds import InMuscle
+from gripperd.model.muscle import Muscle
+from gripperd.model.parameter import amplitude, shape
+from gripperd.model.prandtl import at_rest, carried
+from gripperd.model.real import Real
+from gripperd.model.track import Array, Track
+
+
+@dataclass(frozen=True, slots=True)
+class PreslidingHysteresis(InMuscle):
+    """Maxwell-slip: springs over contraction that slip after a third, one, three radii.
+
+    See :func:`gripperd.model.prandtl.carried`. Far from a reversal all slip, and what
+    is left is dry friction.
+    """
+
+    name: ClassVar[str] = "presliding_hysteresis"
+    needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
+    shows: ClassVar[str] = (
+        "a rounded loop over contraction with minor loops that close, the same at any"
+        " speed: the force remembers where the travel turned"
+    )
+    confused_with: ClassVar[tuple[str, ...]] = (
+        "coulomb_friction", "viscous_friction", "creep", "pressure_friction",
+        "braid_friction",
+    )  # fmt: skip
+    remedy: ClassVar[str] = (
+        "always approach a grip from the same side, from well beyond the last reversal"
+    )
+
+    near: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
+    """Carried by the spring that slips first. [N]"""
+    middle: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
+    """Carried by the next. [N]"""
+    far: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
+    """Carried by the one that slips last. [N]"""
+    contraction: float = shape(
+        unit=None, starts=(0.012, 0.006, 0.03), low=0.006, high=0.1
+    )
+    """Way of the middle spring from rest until it slips. [-]
+
+    The near one slips after a third of it. Under 0.2 % of contraction it is no
+    hysteresis any more but a jump, see ``coulomb_friction``.
+    """
+
+    def force(self, at: MuscleState, muscle: Muscle) -> Real:
+        """What all springs carry once they slip, against the travel. [N]."""
+        return -at.direction * (self.near + self.middle + self.far)
+
+    def rest(self) -> Array:
+        """Three springs without load."""
+        return at_rest()
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Take what the springs carry. [N]."""
+        forces = (self.near, self.middle, self.far)
+        return value - carried(track.contraction, self.contraction, forces, memory)

@@ -1,0 +1,72 @@
+"""A supply that cannot deliver the top of the range, or sags.
+
+References
+----------
+.. [1] ISO 10094-1:2010, "Pneumatic fluid power - Electro-pneumatic pressure control
+       valves - Part 1": pressure regulation characteristics.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gripperd.model.kinds import InValve
+from gripperd.model.memory import begin
+from gripperd.model.parameter import amplitude, shape
+from gripperd.model.real import Real, positive_part
+from gripperd.model.track import Array, Track
+
+
+@dataclass(frozen=True, slots=True)
+class SupplySaturation(InValve):
+    r"""Above a ceiling the pressure no longer follows.
+
+    .. math:: p = p_0 - a\,[p_0 - c]_+ - b x m, \quad c = p_l + l (p_h - p_l) - m
+
+    with x the place on the line from :math:`p_l` to :math:`p_h` and m what the supply
+    has lost since its highest, where that is measured. The corner is rounded as
+    :math:`w \ln(1 + e^{y/w})`, w the softness times the span.
+    """
+
+    name: ClassVar[str] = "supply_saturation"
+    needs: ClassVar[frozenset[str]] = frozenset({"current", "pressure"})
+    shows: ClassVar[str] = (
+        "at high current the pressure stops to follow, or it sinks with the supply"
+    )
+    confused_with: ClassVar[tuple[str, ...]] = ("valve_nonlinearity", "valve_gain")
+    remedy: ClassVar[str] = "raise the supply pressure, or keep below the limit"
+
+    share: float = amplitude(unit=None, scale=1.0, low=0.0, high=1.2)
+    """Part of what is asked above the ceiling that does not come; 1 clips. [-]"""
+    sag: float = amplitude(unit=None, scale=0.1, low=-1.0, high=1.0)
+    """Pressure lost at the top of the line per loss of supply. [Pa/Pa]"""
+    limit: float = shape(unit=None, starts=(0.9, 0.8, 0.7, 0.95), low=0.05, high=1.0)
+    """Place of the ceiling on the line. [-]"""
+    softness: float = shape(unit=None, starts=(0.0, 0.03), low=0.0, high=0.2)
+    """How round the corner is, relative to the span. [-]"""
+
+    def rest(self) -> Array:
+        """No supply seen yet."""
+        return begin()
+
+    def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
+        """Pressure under the ceiling with the supply at its highest. [Pa]."""
+        return pressure - self.share * self._excess(pressure, span)
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Pressure that a supply of its own history allows. [Pa]."""
+        highest = np.fmax.accumulate(np.append(memory, track.supply))[1:]
+        memory[0] = highest[-1]
+        missing = np.nan_to_num(highest - track.supply)
+        low, high = track.span
+        sunk = self.sag * missing * (value - low) / (high - low)
+        return value - self.share * self._excess(value + missing, track.span) - sunk
+
+    def _excess(self, pressure: Real, span: tuple[float, float]) -> Real:
+        low, high = span
+        above = pressure - low - self.limit * (high - low)
+        round_off = self.softness * (high - low)
+        if not round_off:
+            return positive_part(above)
+        return round_off * np.logaddexp(0.0, above / round_off)

@@ -1,0 +1,97 @@
+"""What the effects of one stage have in common: bases that fill in the port."""
+
+from typing import ClassVar
+
+import numpy as np
+
+from gripperd.model.effect import MuscleState, Signal, Stage
+from gripperd.model.muscle import Muscle
+from gripperd.model.real import Real
+from gripperd.model.track import Array, Track
+
+
+class Memoryless:
+    """Nothing of the past matters."""
+
+    __slots__ = ()
+
+    def rest(self) -> Array:
+        """No memory."""
+        return np.empty(0)
+
+
+class InMuscle(Memoryless):
+    """It adds a force that depends on the moment alone, unless it says otherwise."""
+
+    __slots__ = ()
+    stage: ClassVar[Stage] = Stage.MUSCLE
+
+    @property
+    def signal(self) -> Signal:
+        """The pull."""
+        return Signal.FORCE
+
+    @property
+    def affine(self) -> bool:
+        """The force is affine in pressure between its kinks."""
+        return True
+
+    def force(self, at: MuscleState, muscle: Muscle) -> Real:
+        """Force once all has settled: none. [N]."""
+        return 0.0 * at.contraction
+
+    def kinks(
+        self, contraction: Real, diameter_ratio: Real, muscle: Muscle
+    ) -> tuple[Real, ...]:
+        """None: the force is smooth in pressure."""
+        return ()
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Add the force of each moment."""
+        return np.asarray(value + self.force(track.state, track.muscle))
+
+
+class InValve(Memoryless):
+    """It turns a pressure into another, unless it says otherwise."""
+
+    __slots__ = ()
+    stage: ClassVar[Stage] = Stage.VALVE
+
+    @property
+    def signal(self) -> Signal:
+        """The pressure behind the regulator."""
+        return Signal.PRESSURE
+
+    def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
+        """Steady pressure: unchanged. [Pa]."""
+        return pressure
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Pressure of each moment, as when it is steady. [Pa]."""
+        return np.asarray(self.settled(value, track.span))
+
+
+class InGripper(Memoryless):
+    """It takes from the grip or moves the jaws."""
+
+    __slots__ = ()
+    stage: ClassVar[Stage] = Stage.GRIPPER
+
+    def widening(self, grip: Real, pull: Real) -> Real:
+        """None: the jaws stand where the linkage says. [m]."""
+        return 0.0 * grip
+
+    def hidden_contraction(self, pull: Real) -> Real:
+        """None: the muscle is as short as measured. [-]."""
+        return 0.0 * pull
+
+    def transmitted(self, grip: Real, direction: Real) -> Real:
+        """Grip force it leaves once settled: all. [N]."""
+        return grip
+
+
+class InSensor(Memoryless):
+    """It changes what is read, not what is."""
+
+    __slots__ = ()
+    stage: ClassVar[Stage] = Stage.SENSOR

@@ -1,0 +1,112 @@
+"""The linkage as it is: joints that rub, and parts that bend under the load."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gripperd.model.effect import GripperEffect
+from gripperd.model.linkage import Linkage
+from gripperd.model.real import Real, positive_part
+from gripperd.model.root import falling_root, falling_roots
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedLinkage:
+    r"""A linkage with the effects that act in the gripper, settled.
+
+    All of them are in proportion to the loads, so the opening is
+
+    .. math:: w = w_0 - r L h + c_j N + c_s F, \quad N = k (F - F_{spring}) / r
+
+    with the compliances of jaws and series, and the share k that the joints leave.
+    """
+
+    linkage: Linkage
+    effects: tuple[GripperEffect, ...]
+
+    @property
+    def jaw_compliance(self) -> float:
+        """Opening per grip force of each jaw. [m/N]."""
+        return self._widening(1.0, 0.0)
+
+    @property
+    def series_compliance(self) -> float:
+        """Opening per pull of the muscle. [m/N]."""
+        return self._widening(0.0, 1.0)
+
+    def contraction(
+        self, opening: Real, grip: Real, direction: Real, rest_length: float
+    ) -> Real:
+        """Contraction at which the jaws are this far apart under a grip force. [-].
+
+        Parameters
+        ----------
+        opening
+            Distance between the jaws. [m]
+        grip
+            Force of each jaw. [N]
+        direction
+            Direction of travel, or of the last travel when at rest.
+        rest_length
+            Of the muscle. [m]
+        """
+        linkage = self.linkage
+        bent = opening - self.jaw_compliance * positive_part(grip)
+        straight = linkage.contraction(bent, rest_length)
+        joints = self.joints(grip, direction)
+        pull = linkage.muscle_force(joints, straight, rest_length)
+        series = self.series_compliance
+        closing = linkage.ratio - series * linkage.spring_rate
+        return straight + series * pull / (closing * rest_length)
+
+    def joints(self, grip: Real, direction: Real) -> Real:
+        """Grip force before the joints take their share. [N]."""
+        return grip / self._kept(direction)
+
+    def grip_force(
+        self,
+        tension: Callable[[Real], Real],
+        opening: Real,
+        direction: Real,
+        rest_length: float,
+    ) -> Real:
+        """Force of each jaw with the jaws held at an opening, signed. [N].
+
+        The muscle has to shorten more the harder the grip, and pulls the less for it:
+        the balance is the root of a falling function.
+
+        Parameters
+        ----------
+        tension
+            Pull of the muscle at a contraction. [N]
+        opening
+            Distance between the jaws. [m]
+        direction
+            Direction of travel, or of the last travel when at rest.
+        rest_length
+            Of the muscle. [m]
+        """
+        kept = self._kept(direction)
+
+        def surplus(grip: Real) -> Real:
+            contraction = self.contraction(opening, grip, direction, rest_length)
+            pull = tension(contraction)
+            force = self.linkage.grip_force(pull, contraction, rest_length)
+            return kept * force - grip
+
+        shut = self.contraction(opening, 0.0, direction, rest_length)
+        slack = kept * self.linkage.grip_force(0.0, shut, rest_length)
+        rigid = positive_part(surplus(0.0))
+        if isinstance(rigid, np.ndarray):
+            return falling_roots(surplus, slack + 0.0 * rigid, rigid)
+        return falling_root(lambda n: float(surplus(n)), float(slack), rigid)
+
+    def _kept(self, direction: Real) -> Real:
+        share: Real = 1.0
+        for effect in self.effects:
+            share = effect.transmitted(share, direction)
+        return share
+
+    def _widening(self, grip: float, pull: float) -> float:
+        return sum(float(effect.widening(grip, pull)) for effect in self.effects)

@@ -1,0 +1,112 @@
+"""Operators that remember: lag, play and stop.
+
+Each walks one sequence and carries its state in an array that the caller keeps, so
+that a run may be given whole or sample by sample with the same result. A state of NaN
+has not begun: it settles at the first sample.
+
+References
+----------
+.. [1] M. Brokate, J. Sprekels, "Hysteresis and Phase Transitions", Springer, 1996,
+       section 2.3: play and stop.
+.. [2] P. R. Dahl, "Solid friction damping of mechanical vibrations", AIAA J. 14(12),
+       1675-1682, 1976.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripperd.model.compiled import compiled
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+def begin(size: int = 1) -> Array:
+    """State of operators that have not seen a sample yet."""
+    return np.full(size, np.nan)
+
+
+def lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> Array:
+    """First-order lag, exact for a signal that is constant between samples.
+
+    Parameters
+    ----------
+    signal
+        What is followed, shape ``(n,)``.
+    step
+        Time since the sample before, shape ``(n,)``. [s]
+    rise, fall
+        Time constants while the signal is above and below what follows it. [s]
+    state
+        What has followed so far, shape ``(1,)``; it is moved on.
+    """
+    return compiled(_lag)(signal, step, rise, fall, state)
+
+
+def play(signal: Array, radius: float, state: Array) -> Array:
+    """Lost motion: follows the signal at a distance of at most the radius.
+
+    The state, shape ``(1,)``, is the last output; it begins at the first sample.
+    """
+    return compiled(_play)(signal, radius, state)
+
+
+def dahl(signal: Array, direction: Array, distance: float, state: Array) -> Array:
+    """Sign of dry friction, which turns round over a distance after a reversal.
+
+    Dahl's model with exponent 1: the sign nears the direction by ``1 - 1/e`` in each
+    distance travelled [2]_. At rest it stays. The state, shape ``(2,)``, holds the last
+    signal and the sign, which begins at the direction.
+    """
+    return compiled(_dahl)(signal, direction, distance, state)
+
+
+def stop(signal: Array, radius: float, state: Array) -> Array:
+    """Elastic until it slips: signal minus its play, between -radius and +radius.
+
+    The state, shape ``(1,)``, is that of the play.
+    """
+    return signal - play(signal, radius, state)
+
+
+def _lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> Array:
+    out = np.empty_like(signal)
+    last = state[0]
+    for index in range(signal.size):
+        goal = signal[index]
+        if np.isnan(last):
+            last = goal
+        constant = rise if goal > last else fall
+        last = goal + (last - goal) * np.exp(-step[index] / constant)
+        out[index] = last
+    state[0] = last
+    return out
+
+
+def _play(signal: Array, radius: float, state: Array) -> Array:
+    out = np.empty_like(signal)
+    last = state[0]
+    for index in range(signal.size):
+        goal = signal[index]
+        if np.isnan(last):
+            last = goal
+        last = min(max(last, goal - radius), goal + radius)
+        out[index] = last
+    state[0] = last
+    return out
+
+
+def _dahl(signal: Array, direction: Array, distance: float, state: Array) -> Array:
+    out = np.empty_like(signal)
+    last, sign = state[0], state[1]
+    for index in range(signal.size):
+        if np.isnan(last):
+            last, sign = signal[index], direction[index]
+        moved = abs(signal[index] - last)
+        kept = np.exp(-moved / distance) if distance > 0 else 0.0
+        sign = direction[index] + (sign - direction[index]) * kept
+        last = signal[index]
+        out[index] = sign
+    state[0], state[1] = last, sign
+    return out

@@ -1,0 +1,69 @@
+"""Parameters of an effect: their unit, their bounds, and how they are searched."""
+
+from dataclasses import Field, dataclass, field, fields
+from enum import StrEnum
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+_KEY = "parameter"
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """What is known of one parameter before any measurement. SI values."""
+
+    unit: str | None
+    """Suffix of its name in files, such as ``kPa``; none for a ratio."""
+    low: float
+    high: float
+    """Physical bounds; outside them the effect would be something else."""
+    scale: float = 0.0
+    """Typical size of an amplitude, 0 for a shape."""
+    starts: tuple[float, ...] = ()
+    """Values from which a shape is searched, none for an amplitude."""
+    choices: tuple[StrEnum, ...] = ()
+    """All values of a parameter that is a word, none for a number."""
+
+    @property
+    def is_amplitude(self) -> bool:
+        """Whether the effect vanishes with it (together with its other amplitudes)."""
+        return self.scale > 0
+
+
+def amplitude(
+    *, unit: str | None, scale: float, low: float, high: float, default: float = 0.0
+) -> Any:  # noqa: ANN401  (as dataclasses.field)
+    """Declare a parameter the effect is proportional to, at least when it is small."""
+    known = Parameter(unit, low, high, scale=scale)
+    return field(default=default, metadata={_KEY: known})
+
+
+def shape(
+    *, unit: str | None, starts: tuple[float, ...], low: float, high: float
+) -> Any:  # noqa: ANN401  (as dataclasses.field)
+    """Declare a parameter that bends the effect; the first start is its default."""
+    known = Parameter(unit, low, high, starts=starts)
+    return field(default=starts[0], metadata={_KEY: known})
+
+
+def choice(among: type[StrEnum]) -> Any:  # noqa: ANN401  (as dataclasses.field)
+    """Declare a parameter that is one of some words; the first is its default."""
+    words = tuple(among)
+    known = Parameter(None, -inf, inf, choices=words)
+    return field(default=words[0], metadata={_KEY: known})
+
+
+def parameters(
+    effect: "type[DataclassInstance] | DataclassInstance",
+) -> dict[str, Parameter]:
+    """Every declared parameter of an effect, by the name of its field."""
+    return {one.name: _known(one) for one in fields(effect) if _KEY in one.metadata}
+
+
+def _known(declared: Field[Any]) -> Parameter:
+    known = declared.metadata[_KEY]
+    assert isinstance(known, Parameter)
+    return known

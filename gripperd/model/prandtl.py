@@ -1,0 +1,54 @@
+"""Prandtl's model of hysteresis: springs in parallel that stick, then slip.
+
+References
+----------
+.. [1] M. Brokate, J. Sprekels, "Hysteresis and Phase Transitions", Springer, 1996,
+       chapter 2: the Prandtl-Ishlinskii operator, a weighted sum of stops.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripperd.model.memory import begin, stop
+
+Array: TypeAlias = NDArray[np.float64]
+
+SPREAD = 3.0
+"""Ratio of neighbouring radii. Three stops this far apart follow a first loading that
+is exponential, a hyperbolic tangent or a hyperbola to 2 % of its height, RMS. [-]"""
+
+Forces: TypeAlias = tuple[float, float, float]
+"""What each spring carries once it slips, that of the smallest radius first."""
+
+
+def at_rest() -> Array:
+    """Memory of three springs that begin without load at the first sample."""
+    return begin(3)
+
+
+def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Array:
+    r"""Force that the springs carry along a path, however fast it is run.
+
+    .. math:: F = \sum_{i=-1}^{1} w_i \frac{x - P_i(x)}{r_i}, \quad r_i = 3^i r
+
+    with the play P of radius r. After a long way one way it is their sum, after a
+    long way back minus their sum.
+
+    Parameters
+    ----------
+    signal
+        The path, shape ``(n,)``.
+    radius
+        Way that the middle spring goes from rest until it slips, as the signal.
+    forces
+        As :data:`Forces`. [N]
+    memory
+        As :func:`at_rest` gave it or the call before left it; it is moved on.
+    """
+    total = np.zeros_like(signal)
+    for index, force in enumerate(forces):
+        reach = radius * SPREAD ** (index - 1)
+        total += force / reach * stop(signal, reach, memory[index : index + 1])
+    return total

@@ -1,0 +1,39 @@
+"""First inflation after a rest."""
+
+import numpy as np
+import pytest
+
+from gripperd.effects.first_cycle import FirstCycle
+from gripperd.model import Muscle, StaticMuscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+CYCLE = np.array([0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0])
+# A sweep on its own, then two rows of repeats.
+REPEAT = np.array([np.nan, np.nan, 0.0, 1.0, 2.0, 0.0, 1.0])
+
+
+def pull(muscle: Muscle, effect: FirstCycle) -> Array:
+    track = track_of(muscle, cycle=CYCLE, repeat=REPEAT)
+    return effect.along(np.full(7, 200.0), track, effect.rest())
+
+
+def test_only_the_first_inflation_of_the_recording_differs(muscle: Muscle) -> None:
+    expected = [235.0, 235.0, 200.0, 200.0, 200.0, 200.0, 200.0]
+    assert pull(muscle, FirstCycle(0.15, 5.0)) == pytest.approx(expected)
+
+
+def test_after_a_rest_the_first_sweep_of_every_row_differs(muscle: Muscle) -> None:
+    expected = [200.0, 200.0, 235.0, 200.0, 200.0, 235.0, 200.0]
+    assert pull(muscle, FirstCycle(0.15, 5.0, after=1.0)) == pytest.approx(expected)
+
+
+def test_a_partial_recovery_stands_between_them(muscle: Muscle) -> None:
+    half = pull(muscle, FirstCycle(0.15, 5.0, after=0.5))
+    ends = [pull(muscle, FirstCycle(0.15, 5.0, after=after)) for after in (0.0, 1.0)]
+    assert half == pytest.approx((ends[0] + ends[1]) / 2)
+
+
+def test_a_prediction_is_that_of_a_muscle_inflated_before(muscle: Muscle) -> None:
+    static = StaticMuscle(muscle, (FirstCycle(0.15, 5.0),))
+    assert static.force(3e5, 0.1) == StaticMuscle(muscle).force(3e5, 0.1)

@@ -1,0 +1,82 @@
+"""Memory of contraction."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.model import Direction, Muscle, StaticMuscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+HYSTERESIS = PreslidingHysteresis(near=4.0, middle=8.0, far=6.0, contraction=0.01)
+ALL = 18.0
+"""What the three springs carry together. [N]"""
+
+
+def path(*turns: float) -> Array:
+    """Contraction from one turning point to the next, in steps of 0.0005."""
+    legs = [
+        np.linspace(start, end, 1 + round(abs(end - start) / 0.0005))[1:]
+        for start, end in pairwise(turns)
+    ]
+    return np.concatenate([[turns[0]], *legs])
+
+
+def force(
+    muscle: Muscle, contraction: Array, effect: PreslidingHysteresis = HYSTERESIS
+) -> Array:
+    track = track_of(muscle, contraction=contraction)
+    return effect.along(np.zeros_like(contraction), track, effect.rest())
+
+
+def test_before_any_travel_there_is_no_force(muscle: Muscle) -> None:
+    assert force(muscle, np.full(5, 0.1)).tolist() == [0.0] * 5
+
+
+def test_a_first_loading_bends_at_a_third_one_and_three_radii(muscle: Muscle) -> None:
+    reached = force(muscle, np.array([0.0, 0.01 / 3, 0.01, 0.03, 0.1]))
+    # Of the springs' 4, 8 and 6 N, the share of its way that each has gone.
+    expected = [0, 4 + 8 / 3 + 6 / 9, 4 + 8 + 6 / 3, 18, 18]
+    assert -reached == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("direction", Direction)
+def test_after_a_long_way_it_is_the_friction_of_a_prediction(
+    muscle: Muscle, direction: Direction
+) -> None:
+    end = 0.1 + 0.08 * direction
+    travelled = force(muscle, path(0.1, 0.1 - 0.05 * direction, end))[-1]
+    static = StaticMuscle(muscle, (HYSTERESIS,))
+    settled = static.force(0.0, end, direction)
+    assert settled == -direction * ALL
+    assert travelled == pytest.approx(settled)
+
+
+def test_the_loop_turns_smoothly(muscle: Muscle) -> None:
+    down = force(muscle, path(0.0, 0.1, 0.0))[200:]
+    assert down[0] == pytest.approx(-ALL)
+    assert np.diff(down).max() < ALL / 15
+    # From one side to the other it takes twice the way of a first loading.
+    assert down[119] < ALL - 1e-6
+    assert down[121] == pytest.approx(ALL)
+
+
+def test_minor_loops_close_where_they_began(muscle: Muscle) -> None:
+    once = force(muscle, path(0.0, 0.05))
+    excursion = force(muscle, path(0.0, 0.03, 0.022, 0.03, 0.05))
+    assert excursion[-1] == once[-1]
+    assert excursion[92] == pytest.approx(once[60])
+    assert excursion[76] > once[60] + 1
+
+
+def test_speed_makes_no_difference(muscle: Muscle) -> None:
+    slow = force(muscle, np.repeat(path(0.0, 0.05, 0.02, 0.04), 3))
+    assert slow[::3].tolist() == force(muscle, path(0.0, 0.05, 0.02, 0.04)).tolist()
+
+
+def test_every_closed_loop_loses_work(muscle: Muscle) -> None:
+    loop = path(0.05, 0.08, 0.02, 0.05)
+    pull = force(muscle, np.concatenate([loop, loop]))[loop.size :]
+    assert np.trapezoid(-pull, loop) > 0.01

@@ -1,0 +1,44 @@
+"""Dry friction that grows with pressure."""
+
+import numpy as np
+import pytest
+
+from gripperd.effects.pressure_friction import PressureFriction
+from gripperd.model import Direction, Muscle, StaticMuscle
+from gripperd.model.real import Real
+
+
+def width(muscle: Muscle, effect: PressureFriction, pressure: Real) -> Real:
+    """Of the loop between both directions. [N]."""
+    static = StaticMuscle(muscle, (effect,))
+    extending = static.force(pressure, 0.1, Direction.EXTENDING)
+    return extending - static.force(pressure, 0.1, Direction.CONTRACTING)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 1.5])
+def test_the_loop_widens_with_a_power_of_pressure(
+    muscle: Muscle, exponent: float
+) -> None:
+    friction = PressureFriction(20.0, exponent)
+    assert width(muscle, friction, 300e3) == pytest.approx(40.0)
+    wider = width(muscle, friction, 600e3) / width(muscle, friction, 150e3)
+    assert wider == pytest.approx(4**exponent)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0])
+def test_a_vented_or_evacuated_muscle_has_none(muscle: Muscle, exponent: float) -> None:
+    loops = width(muscle, PressureFriction(20.0, exponent), np.array([0.0, -5e3]))
+    assert loops == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0])
+@pytest.mark.parametrize("direction", Direction)
+def test_its_pressure_is_found_again_from_the_pull(
+    muscle: Muscle, exponent: float, direction: Direction
+) -> None:
+    static = StaticMuscle(muscle, (PressureFriction(20.0, exponent),))
+    for pressure in (-40e3, 150e3, 500e3):
+        force = static.force(pressure, 0.1, direction)
+        assert static.pressure(force, 0.1, direction) == pytest.approx(
+            pressure, abs=1e-3
+        )

@@ -1,0 +1,73 @@
+"""Memory of pressure."""
+
+import numpy as np
+import pytest
+
+from gripperd.effects.pressure_hysteresis import PressureHysteresis
+from gripperd.model import Direction, Muscle, StaticMuscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+HYSTERESIS = PressureHysteresis(near=4.0, middle=8.0, far=6.0, pressure=30e3)
+TRIANGLE = np.concatenate([np.linspace(0, 400e3, 81), np.linspace(400e3, 0, 81)[1:]])
+
+
+def force(
+    muscle: Muscle,
+    effect: PressureHysteresis,
+    contraction: float = 0.0,
+    pressure: Array = TRIANGLE,
+) -> Array:
+    track = track_of(muscle, pressure=pressure, contraction=contraction)
+    return effect.along(np.zeros_like(pressure), track, effect.rest())
+
+
+@pytest.mark.parametrize("contraction", [0.0, 0.15])
+def test_at_a_fixed_length_inflating_pulls_less_than_deflating(
+    muscle: Muscle, contraction: float
+) -> None:
+    pull = force(muscle, HYSTERESIS, contraction)
+    up, down = pull[:81], pull[80:][::-1]
+    assert np.all(down[:-1] > up[:-1])
+    assert (up[40], down[20]) == pytest.approx((-18.0, 18.0))
+
+
+def test_it_bends_at_a_third_one_and_three_radii(muscle: Muscle) -> None:
+    pressure = np.array([0.0, 10e3, 30e3, 90e3, 300e3])
+    expected = [0, 4 + 8 / 3 + 6 / 9, 4 + 8 + 6 / 3, 18, 18]
+    reached = force(muscle, HYSTERESIS, pressure=pressure)
+    assert -reached == pytest.approx(expected)
+
+
+def test_speed_makes_no_difference(muscle: Muscle) -> None:
+    slow = force(muscle, HYSTERESIS, pressure=np.repeat(TRIANGLE, 2))
+    assert slow[::2].tolist() == force(muscle, HYSTERESIS).tolist()
+
+
+def test_with_full_leverage_it_is_a_lost_pressure(muscle: Muscle) -> None:
+    lost = PressureHysteresis(4.0, 8.0, 6.0, 30e3, leverage=1.0)
+    pressures = [
+        force(muscle, lost, contraction)
+        / float(StaticMuscle(muscle).force(1.0, contraction))
+        for contraction in (0.0, 0.1, 0.2)
+    ]
+    assert pressures[1] == pytest.approx(pressures[0])
+    assert pressures[2] == pytest.approx(pressures[0])
+    assert force(muscle, lost).tolist() == force(muscle, HYSTERESIS).tolist()
+
+
+@pytest.mark.parametrize("leverage", [0.0, 1.0])
+def test_after_a_long_way_it_is_that_of_a_prediction(
+    muscle: Muscle, leverage: float
+) -> None:
+    effect = PressureHysteresis(4.0, 8.0, 6.0, 30e3, leverage)
+    static, ideal = StaticMuscle(muscle, (effect,)), StaticMuscle(muscle)
+    run = force(muscle, effect, 0.1)
+    for index, direction in ((80, Direction.CONTRACTING), (-1, Direction.EXTENDING)):
+        settled = static.force(3e5, 0.1, direction) - ideal.force(3e5, 0.1)
+        assert run[index] == pytest.approx(settled)
+
+
+def test_a_muscle_without_ideal_pull_has_none_to_lose(muscle: Muscle) -> None:
+    lost = PressureHysteresis(4.0, 8.0, 6.0, 30e3, leverage=0.5)
+    assert np.all(force(muscle, lost, muscle.spent + 0.01) == 0)

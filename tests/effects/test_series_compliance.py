@@ -1,0 +1,35 @@
+"""A tendon that stretches under the pull."""
+
+import numpy as np
+import pytest
+
+from gripperd.effects.series_compliance import SeriesCompliance
+from gripperd.model import Muscle
+from tests.effects.tracks import track_of
+
+
+def test_the_opening_is_wider_in_proportion_to_the_pull(muscle: Muscle) -> None:
+    # 0.001 mm a newton.
+    effect = SeriesCompliance(compliance=1e-6)
+    track = track_of(muscle, force=np.array([0.0, 250.0, 500.0]))
+    found = effect.along(np.full(3, 0.040), track, effect.rest())
+    assert found == pytest.approx([0.04000, 0.04025, 0.04050])
+
+
+@pytest.mark.parametrize("force", [-20.0, np.nan])
+def test_a_slack_muscle_stretches_nothing(muscle: Muscle, force: float) -> None:
+    effect = SeriesCompliance(compliance=1e-6)
+    track = track_of(muscle, force=force)
+    assert effect.along(np.array([0.040]), track, effect.rest()) == 0.040
+
+
+def test_only_the_pull_stretches_it() -> None:
+    effect = SeriesCompliance(compliance=1e-6)
+    assert effect.widening(50.0, 400.0) == pytest.approx(0.4e-3)
+    assert effect.widening(50.0, 0.0) == 0.0
+
+
+def test_a_muscle_inside_the_stretch_is_shorter_than_measured() -> None:
+    stretch = SeriesCompliance(shortening=5e-6)
+    assert stretch.hidden_contraction(800.0) == pytest.approx(0.004)
+    assert SeriesCompliance(compliance=1e-5).hidden_contraction(800.0) == 0.0

@@ -1,0 +1,53 @@
+"""A supply that clips the range, or sags."""
+
+from math import log
+
+import numpy as np
+import pytest
+
+from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.model import Muscle
+from tests.effects.tracks import track_of
+
+SPAN = (0.0, 500e3)
+ASKED = np.array([0.0, 200e3, 400e3, 450e3, 500e3])
+
+
+def test_a_full_share_clips_at_the_limit(muscle: Muscle) -> None:
+    effect = SupplySaturation(share=1.0, limit=0.8)
+    found = effect.along(ASKED, track_of(muscle, command=ASKED), effect.rest())
+    assert found == pytest.approx(np.minimum(ASKED, 400e3))
+    assert effect.settled(ASKED, SPAN) == pytest.approx(np.minimum(ASKED, 400e3))
+
+
+def test_half_a_share_lets_half_of_the_rest_through() -> None:
+    effect = SupplySaturation(share=0.5, limit=0.8)
+    assert effect.settled(500e3, SPAN) == pytest.approx(450e3)
+
+
+def test_a_soft_corner_is_rounded_and_far_from_it_the_same() -> None:
+    effect = SupplySaturation(share=1.0, limit=0.8, softness=0.03)
+    assert effect.settled(400e3, SPAN) == pytest.approx(400e3 - 15e3 * log(2))
+    assert effect.settled(100e3, SPAN) == pytest.approx(100e3, abs=0.01)
+    assert effect.settled(900e3, SPAN) == pytest.approx(400e3, abs=0.01)
+
+
+def test_the_ceiling_sinks_with_a_supply_that_is_measured(muscle: Muscle) -> None:
+    effect = SupplySaturation(share=1.0, limit=0.9)
+    supply = np.array([600e3, 600e3, 590e3, 500e3])
+    track = track_of(muscle, supply=supply)
+    found = effect.along(np.full(4, 480e3), track, effect.rest())
+    assert found == pytest.approx([450e3, 450e3, 440e3, 350e3])
+
+
+def test_a_sag_costs_most_at_the_top_of_the_line(muscle: Muscle) -> None:
+    effect = SupplySaturation(share=0.0, sag=0.1)
+    track = track_of(muscle, supply=np.array([600e3, 500e3, 500e3]))
+    found = effect.along(np.array([500e3, 500e3, 250e3]), track, effect.rest())
+    assert found == pytest.approx([500e3, 490e3, 245e3])
+
+
+def test_an_unmeasured_supply_is_taken_as_constant(muscle: Muscle) -> None:
+    effect = SupplySaturation(share=0.0, sag=0.5)
+    track = track_of(muscle, supply=np.full(5, np.nan))
+    assert effect.along(ASKED, track, effect.rest()) == pytest.approx(ASKED)

@@ -1,0 +1,40 @@
+"""A regulator that does not follow small reversals."""
+
+import numpy as np
+import pytest
+
+from gripperd.effects.valve_dead_band import ValveDeadBand
+from gripperd.model import Muscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+WIDTH = 4e3
+
+
+def behind(asked: Array, muscle: Muscle, *, step: float = 0.1) -> Array:
+    effect = ValveDeadBand(width=WIDTH)
+    return effect.along(
+        asked, track_of(muscle, command=asked, step=step), effect.rest()
+    )
+
+
+def test_reversals_within_the_width_are_not_followed(muscle: Muscle) -> None:
+    asked = np.array([0.0, 100e3, 97e3, 99e3, 96.5e3, 100e3])
+    assert behind(asked, muscle)[1:] == pytest.approx(98e3)
+
+
+def test_up_and_down_differ_by_the_width(muscle: Muscle) -> None:
+    up = np.arange(0.0, 201e3, 1e3)
+    found = behind(np.concatenate([up, up[::-1]]), muscle)
+    rising, falling = found[: up.size], found[up.size :][::-1]
+    assert (falling - rising)[10:-10] == pytest.approx(WIDTH)
+
+
+def test_speed_makes_no_difference(muscle: Muscle) -> None:
+    asked = np.array([0.0, 100e3, 50e3, 80e3])
+    slow, fast = (behind(asked, muscle, step=step) for step in (10.0, 1e-3))
+    assert slow.tolist() == fast.tolist()
+
+
+def test_a_steady_pressure_is_taken_in_the_middle_of_the_band() -> None:
+    assert ValveDeadBand(width=WIDTH).settled(200e3, (0.0, 500e3)) == 200e3

@@ -1,0 +1,45 @@
+"""A regulator that fills slowly."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from gripperd.effects.valve_lag import ValveLag
+from gripperd.model import Muscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+
+def test_a_step_is_followed_to_63_percent_in_one_time_constant(muscle: Muscle) -> None:
+    effect = ValveLag(share=1.0, time=0.5)
+    asked = np.array([0.0, 100e3, 100e3])
+    track = track_of(muscle, step=np.array([0.0, 0.5, 0.5]))
+    found = effect.along(asked, track, effect.rest())
+    assert found == pytest.approx(1e5 * (1 - np.exp([0.0, -1.0, -2.0])))
+
+
+def test_emptying_takes_longer_by_the_ratio(muscle: Muscle) -> None:
+    effect = ValveLag(share=1.0, time=0.5, exhaust=2.0)
+    asked = np.array([100e3, 0.0])
+    track = track_of(muscle, step=np.array([0.0, 1.0]))
+    assert effect.along(asked, track, effect.rest())[1] == pytest.approx(1e5 / np.e)
+
+
+def test_a_swing_is_followed_as_the_differential_equation_says(muscle: Muscle) -> None:
+    time = np.arange(0.0, 6.0, 0.002)
+    asked = 2e5 + 1e5 * np.sin(2 * time)
+    effect = ValveLag(share=1.0, time=0.4, exhaust=1.5)
+    track = track_of(muscle, time=time, step=np.diff(time, prepend=0.0))
+
+    def slope(t: float, p: Array) -> Array:
+        gap = 2e5 + 1e5 * np.sin(2 * t) - p
+        return np.asarray(gap / np.where(gap > 0, 0.4, 0.6))
+
+    exact = solve_ivp(slope, (0.0, 6.0), [2e5], t_eval=time, rtol=1e-8).y[0]
+    found = effect.along(asked, track, effect.rest())
+    # A command that is held for a step leads the true one by half of it, 1 ms.
+    assert found == pytest.approx(exact, abs=2e5 * 0.0015)
+
+
+def test_a_steady_pressure_has_arrived() -> None:
+    assert ValveLag(share=1.0).settled(200e3, (0.0, 500e3)) == 200e3

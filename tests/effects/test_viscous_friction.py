@@ -1,0 +1,40 @@
+"""Force against the rate of contraction."""
+
+import numpy as np
+import pytest
+
+from gripperd.effects.viscous_friction import ViscousFriction
+from gripperd.model import Muscle, StaticMuscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+RATES = np.array([-0.4, -0.1, 0.0, 0.1, 0.4])
+ALL = ViscousFriction(damping=100.0, sublinear=10.0, pressure_damping=50.0)
+
+
+def force(muscle: Muscle, effect: ViscousFriction, pressure: float = 0.0) -> Array:
+    track = track_of(muscle, rate=RATES, pressure=pressure)
+    return effect.along(np.zeros_like(RATES), track, effect.rest())
+
+
+def test_nothing_rubs_when_still(muscle: Muscle) -> None:
+    assert force(muscle, ALL, 4e5)[2] == 0.0
+    assert StaticMuscle(muscle, (ALL,)).force(0.0, 0.1) == 0.0
+
+
+def test_damping_grows_with_the_rate(muscle: Muscle) -> None:
+    damping = ViscousFriction(damping=100.0)
+    assert force(muscle, damping) == pytest.approx([40.0, 10.0, 0.0, -10.0, -40.0])
+    assert force(muscle, damping, 4e5) == pytest.approx(force(muscle, damping))
+
+
+def test_the_sublinear_part_grows_with_the_root_of_the_rate(muscle: Muscle) -> None:
+    textile = ViscousFriction(sublinear=10.0)
+    assert force(muscle, textile) == pytest.approx([20.0, 10.0, 0.0, -10.0, -20.0])
+
+
+def test_pressure_damping_is_proportional_to_pressure(muscle: Muscle) -> None:
+    pressed = ViscousFriction(pressure_damping=100.0)
+    assert force(muscle, pressed) == pytest.approx(0.0)
+    expected = [80.0, 20.0, 0.0, -20.0, -80.0]
+    assert force(muscle, pressed, 600e3) == pytest.approx(expected)

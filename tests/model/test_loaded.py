@@ -1,0 +1,93 @@
+"""The linkage under load: joints that rub, parts that bend."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import fsolve
+
+from gripperd.effects.jaw_compliance import JawCompliance
+from gripperd.effects.linkage_friction import LinkageFriction
+from gripperd.effects.series_compliance import SeriesCompliance
+from gripperd.model import Direction, Linkage
+from gripperd.model.loaded import LoadedLinkage
+from gripperd.model.real import Real
+
+LINKAGE = Linkage(open_width=0.085, ratio=4.0, spring_preload=240.0, spring_rate=1000.0)
+LENGTH = 0.25
+JAW, SERIES, LOSS = 2e-5, 1e-5, 0.1
+LOADED = LoadedLinkage(
+    LINKAGE,
+    (
+        JawCompliance(compliance=JAW),
+        SeriesCompliance(compliance=SERIES),
+        LinkageFriction(loss=LOSS),
+    ),
+)
+
+
+def tension(contraction: Real) -> Real:
+    """A muscle whose pull falls as it shortens. [N]."""
+    return np.maximum(600.0 - 4000.0 * contraction, 0.0)
+
+
+@pytest.mark.parametrize("direction", Direction)
+@pytest.mark.parametrize("opening", [0.080, 0.060, 0.020])
+def test_pull_grip_and_bending_are_in_balance(
+    opening: float, direction: Direction
+) -> None:
+    def off(unknown: np.ndarray) -> list[float]:
+        grip, shortening = unknown
+        pull = 600.0 - 4000.0 * shortening / 0.25
+        spring = 240.0 + 1000.0 * shortening
+        bent = JAW * max(grip, 0.0) + SERIES * pull
+        return [
+            (pull - spring) / 4 * (1 - LOSS * direction) - grip,
+            (0.085 - 4 * shortening + bent - opening) * 1e3,
+        ]
+
+    grip, shortening = fsolve(off, [50.0, 0.01], xtol=1e-10)
+    found = LOADED.grip_force(tension, opening, direction, LENGTH)
+    assert found == pytest.approx(grip, rel=1e-7)
+    contraction = LOADED.contraction(opening, found, direction, LENGTH)
+    assert contraction == pytest.approx(shortening / 0.25, rel=1e-7)
+
+
+def test_a_spring_too_strong_for_the_muscle_holds_the_jaws_off() -> None:
+    weak = LOADED.grip_force(lambda h: 0.3 * tension(h), 0.060, 1.0, LENGTH)
+    assert weak == pytest.approx(
+        0.9 * (0.3 * tension(0.025) - 240 - 6.25) / 4, rel=0.05
+    )
+    assert weak < 0
+
+
+def test_a_slack_muscle_leaves_the_spring_alone() -> None:
+    slack = LOADED.grip_force(lambda h: 0.0 * h, 0.085, 1.0, LENGTH)
+    assert slack == pytest.approx(-0.9 * 240 / 4)
+
+
+@given(opening=st.floats(0.01, 0.084))
+def test_without_effects_it_is_the_linkage(opening: float) -> None:
+    bare = LoadedLinkage(LINKAGE, ())
+    contraction = LINKAGE.contraction(opening, LENGTH)
+    expected = LINKAGE.grip_force(tension(contraction), contraction, LENGTH)
+    assert bare.contraction(opening, 30.0, 1.0, LENGTH) == pytest.approx(contraction)
+    assert bare.grip_force(tension, opening, 1.0, LENGTH) == pytest.approx(
+        float(expected), rel=1e-12
+    )
+
+
+def test_many_openings_at_once_equal_one_by_one() -> None:
+    openings = np.linspace(0.005, 0.085, 17)
+    directions = np.where(np.arange(17) % 2, 1.0, -1.0)
+    grips = LOADED.grip_force(tension, openings, directions, LENGTH)
+    alone = [
+        LOADED.grip_force(tension, float(w), float(d), LENGTH)
+        for w, d in zip(openings, directions, strict=True)
+    ]
+    assert grips == pytest.approx(alone, rel=1e-10)
+
+
+def test_joints_carry_more_than_the_jaws_while_closing() -> None:
+    assert LOADED.joints(45.0, Direction.CONTRACTING) == pytest.approx(50.0)
+    assert LOADED.joints(55.0, Direction.EXTENDING) == pytest.approx(50.0)
