@@ -1,0 +1,71 @@
+"""Whether a recording shows enough of the chain to be compared with a model."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.recording import Rejection, Run
+from gripperd.errors import InputError
+
+LINKS = (
+    ("current", "pressure"),
+    ("pressure", "contraction", "force"),
+    ("pressure", "length", "force"),
+    ("contraction", "opening"),
+    ("length", "opening"),
+    ("pressure", "opening", "grip"),
+)
+"""What must be measured together to compare one step of the chain."""
+FEWEST = 20
+"""Rows; fewer do not tell an effect from noise."""
+
+
+def require_enough(
+    source: str, runs: Sequence[Run], rejected: Sequence[Rejection]
+) -> None:
+    """Refuse a recording that links no two points of the chain often enough.
+
+    Raises
+    ------
+    InputError
+        Naming the columns that are missing, or how few rows are left.
+    """
+    there = {key for run in runs for key in run.columns if run.has(key)}
+    if not any(there.issuperset(link) for link in LINKS):
+        named = ", ".join(BY_QUANTITY[key].name for key in sorted(there - {"time"}))
+        choice = "; or ".join(
+            " and ".join(BY_QUANTITY[key].name for key in link) for link in LINKS
+        )
+        detail = (
+            f"{source}: what was measured ({named or 'nothing'}) links no two points "
+            f"of the chain; needed at least: {choice}{_left_out(rejected)}"
+        )
+        raise InputError(detail)
+    usable = sum(int(_linked(run).sum()) for run in runs)
+    if usable < FEWEST:
+        rows = sum(len(run) for run in runs)
+        detail = (
+            f"{source}: {usable} of {rows} rows are usable; needed at least "
+            f"{FEWEST}{_left_out(rejected)}"
+        )
+        raise InputError(detail)
+
+
+def _left_out(rejected: Sequence[Rejection]) -> str:
+    counts: Counter[str] = Counter()
+    for entry in rejected:
+        counts[f"{entry.column} {entry.reason}"] += entry.count
+    said = ", ".join(f"{count} times {what}" for what, count in counts.most_common(3))
+    return f" (left out: {said})" if said else ""
+
+
+def _linked(run: Run) -> NDArray[np.bool_]:
+    """Rows in which at least one link is complete."""
+    linked = np.zeros(len(run), dtype=np.bool_)
+    for link in LINKS:
+        if all(key in run.columns for key in link):
+            linked |= np.isfinite([run.columns[key] for key in link]).all(axis=0)
+    return linked

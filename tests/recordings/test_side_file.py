@@ -1,0 +1,50 @@
+import pytest
+
+from gripperd.diagnose.recording import Kind
+from gripperd.recordings import read_recording
+from tests.recordings.conftest import Complaint, Write, good
+
+
+def test_kinds_and_noise_are_taken_from_the_side_file(write: Write) -> None:
+    path = write(good())
+    path.with_suffix(".yaml").write_text(
+        "rig: bench 2\nmuscle_serial: A7\nnotes: after service\n"
+        "noise: {force_N: 5, pressure_kPa: 1.5, temperature_C: 0.2}\n"
+        "runs: {h0.10: {kind: isometric}}\n"
+    )
+    recording = read_recording(path)
+    assert recording.runs[0].kind is Kind.ISOMETRIC
+    assert recording.noise == {"force": 5.0, "pressure": 1500.0, "temperature": 0.2}
+    assert recording.remarks == ()
+
+
+def test_a_key_nobody_knows_is_said_not_to_be_read(write: Write) -> None:
+    path = write(good())
+    path.with_suffix(".yaml").write_text("weather: rain\n")
+    (remark,) = read_recording(path).remarks
+    assert "weather is not read" in remark
+
+
+@pytest.mark.parametrize(
+    ("text", "detail"),
+    [
+        ("muscle_serial: [A7, A8]", "rig.yaml:1: muscle_serial: "),
+        ("rig: x\nrest_length_mm: [225, 274]", "rig.yaml:2: rest_length_mm: "),
+        ("noise: {force: 5}", 'no such column; did you mean "force_N"?'),
+        ("noise:\n  force_N: -5", "rig.yaml:2: noise.force_N: -5 is not above 0 N"),
+        ("noise: {force_N: much}", '"much" is not above 0 N'),
+        ("noise: 5", "rig.yaml:1: noise: 5 is not a mapping"),
+        ("runs: {h0.1: {kind: step}}", 'no such run; did you mean "h0.10"?'),
+        ("runs: {h0.10: {kind: isometrc}}", 'did you mean "isometric"?'),
+        ("runs: [h0.10]", "rig.yaml:1: runs: "),
+        ("runs: {", "rig.yaml:"),
+        ("rig: a\nrig: b", "rig.yaml:2: rig: stands twice"),
+        ("- 1", "is not a mapping"),
+    ],
+)
+def test_a_side_file_that_cannot_be_right_is_refused(
+    write: Write, complaint: Complaint, text: str, detail: str
+) -> None:
+    path = write(good())
+    path.with_suffix(".yaml").write_text(text)
+    assert detail in complaint(path)
