@@ -1,0 +1,124 @@
+"""What could be missing: every effect of the library, and every constant."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from gripperd.diagnose.course import is_table
+from gripperd.diagnose.problem import Problem
+from gripperd.model.effect import Effect, Stage
+from gripperd.model.parameter import parameters
+
+LINEAR = ("valve_offset", "valve_gain")
+SLIDING = frozenset({
+    "coulomb_friction", "pressure_friction", "braid_friction", "presliding_hysteresis",
+    "viscous_friction", "linkage_friction", "linkage_backlash",
+})  # fmt: skip
+"""Effects of travel, which have no sign where there is none."""
+TEMPORAL = frozenset({
+    "viscous_friction", "fatigue", "first_cycle", "leak", "force_sensor_drift",
+    "channel_delay",
+})  # fmt: skip
+"""Effects in which time or order counts, beside those with a memory."""
+PARTS = ("muscle", "valve", "gripper")
+"""Parts of a model whose constants can be wrong; the rest is how it was measured."""
+WRONG = "parameter:"
+"""Start of the name of a candidate that is a wrong constant."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """One form of one thing that could be missing."""
+
+    name: str
+    effect: Effect | None
+    """With its shapes set and a typical size; none for a wrong constant."""
+    constant: int | None = None
+    """Index of the constant that is wrong."""
+
+    @property
+    def stage(self) -> str:
+        """Where it acts, ``-`` for a constant."""
+        return self.effect.stage.value if self.effect else "-"
+
+    @property
+    def doubles(self) -> tuple[str, ...]:
+        """Names of effects known to look alike."""
+        return self.effect.confused_with if self.effect else ()
+
+
+def candidates(
+    library: Mapping[str, type[Effect]], problem: Problem, columns: frozenset[str]
+) -> tuple[tuple[Candidate, ...], dict[str, str]]:
+    """List everything this recording could show, and why the rest cannot be seen.
+
+    Parameters
+    ----------
+    library
+        Effects by name.
+    problem
+        The recording and the model; effects of the model are not candidates.
+    columns
+        Names of what was measured.
+    """
+    found: list[Candidate] = []
+    unseen: dict[str, str] = {}
+    settled = is_table(problem.courses)
+    travelled = any(np.ptp(course.direction) == 2 for course in problem.courses)
+    present = {effect.name for effect in problem.model.effects}
+    for name, kind in library.items():
+        lacking = sorted(kind.needs - columns)
+        if name in present:
+            continue
+        if lacking:
+            unseen[name] = f"{', '.join(lacking)} not measured"
+            continue
+        if name in SLIDING and not travelled:
+            unseen[name] = "the length never went both ways"
+            continue
+        if settled and (name in TEMPORAL or kind().rest().size):
+            unseen[name] = "the recording is a table of settled points, without time"
+            continue
+        found += [
+            Candidate(name, effect)
+            for effect in forms(kind)
+            if effect.stage in (Stage.SENSOR, Stage.GRIPPER)
+            or effect.signal in problem.signals
+        ]
+    for index, constant in enumerate(problem.constants):
+        if constant.path.partition(".")[0] in PARTS:
+            found.append(Candidate(WRONG + constant.path, None, index))
+    return tuple(found), unseen
+
+
+def is_exact(candidate: Candidate) -> bool:
+    """Tell whether nature leaves it but one form: an offset, a factor, a rate."""
+    effect = candidate.effect
+    if effect is None:
+        return False
+    known = parameters(effect)
+    plain = not any(one.starts for one in known.values())
+    return (plain and (effect.stage is Stage.SENSOR or len(known) == 0)) or (
+        plain and effect.name in LINEAR
+    )
+
+
+def forms(kind: type[Effect]) -> list[Effect]:
+    """Give an effect in all the shapes from which a search starts."""
+    known = parameters(kind)
+    shapes: dict[str, tuple[object, ...]] = {
+        name: one.starts for name, one in known.items() if one.starts
+    }
+    shapes |= {name: one.choices for name, one in known.items() if one.choices}
+    typical = {name: one.scale for name, one in known.items() if one.is_amplitude}
+    return [
+        replace(kind(), **typical, **dict(zip(shapes, values, strict=True)))
+        for values in product(*shapes.values())
+    ]
+
+
+def amplitudes(effect: Effect) -> list[str]:
+    """Names of the parameters the effect is proportional to."""
+    return [name for name, one in parameters(effect).items() if one.is_amplitude]

@@ -1,0 +1,81 @@
+"""From an explanation to a verdict."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from gripperd.diagnose.polish import Polished
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rivalry import Contest
+from gripperd.diagnose.search import Found
+from gripperd.diagnose.structure import Structure, structures
+
+STRUCTURED = 1e-4
+"""Chance below which what is left is no noise, over all ways of looking at it."""
+VISIBLE = 0.0015
+"""Structure below this share of full scale is what common sensors drift. [-]"""
+EXPLAINED = 0.9
+"""Share of the structure that a right explanation takes away. [-]"""
+
+
+class Verdict(StrEnum):
+    """What a diagnosis can say."""
+
+    NAMED = "named"
+    NONE = "none"
+    UNEXPLAINED = "unexplained"
+    AMBIGUOUS = "ambiguous"
+    UNUSABLE = "unusable"
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """The verdict and what it rests on."""
+
+    verdict: Verdict
+    left: tuple[Structure, ...]
+    """What is left after the best explanation."""
+    share: float
+    """Share of the structure that the best explanation takes away. [-]"""
+
+
+def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
+    """Weigh what was found against what is left.
+
+    Parameters
+    ----------
+    problem
+        With the noise as it was identified, not louder.
+    found, contest
+        The search and its outcome.
+    """
+    before = _structured(problem, found.null.fit)
+    after = _structured(problem, contest.best.fit)
+    excess, left = _excess(before), _excess(after)
+    share = 1 - left / excess if excess > 0 else 1.0
+    remains = _remains(after)
+    if not contest.best.candidates:
+        verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
+    elif remains and share < EXPLAINED:
+        verdict = Verdict.UNEXPLAINED
+    elif any(contest.equivalents):
+        verdict = Verdict.AMBIGUOUS
+    else:
+        verdict = Verdict.NAMED
+    return Conclusion(verdict, after, share)
+
+
+def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:
+    return structures(problem, problem.residuals(fit.point))
+
+
+def _excess(found: Sequence[Structure]) -> float:
+    return float(np.max([max(one.excess, 0.0) for one in found], initial=0.0))
+
+
+def _remains(found: Sequence[Structure]) -> bool:
+    return any(
+        one.p_value * len(found) < STRUCTURED and one.size > VISIBLE for one in found
+    )

@@ -1,0 +1,214 @@
+"""The whole story of one recording: where, which effect, how much better."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from gripperd.diagnose.believed import believed
+from gripperd.diagnose.candidates import Candidate, candidates
+from gripperd.diagnose.conclude import Conclusion, Verdict, conclude
+from gripperd.diagnose.course import is_table
+from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
+from gripperd.diagnose.holdout import Split, split
+from gripperd.diagnose.named import Named, named
+from gripperd.diagnose.next_experiment import Proposal, proposal
+from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.resting import with_resting_sign
+from gripperd.diagnose.rivalry import Contest, contest
+from gripperd.diagnose.search import Found, Rival, search
+from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.signature import signature
+from gripperd.diagnose.stages import Explanation
+from gripperd.diagnose.thinning import thinned
+from gripperd.diagnose.where import Finding, findings
+from gripperd.model.effect import Effect, Signal, Stage
+
+MOST_ROWS = 40_000
+"""More are averaged, whole numbers of neighbours: they cost and tell nothing."""
+LOOSE = 0.0125
+"""Stated tolerance of the rest length from which its zero is open. [-]"""
+
+Progress: TypeAlias = Callable[[str, float], None]
+"""Told what is being done, and the share that is done. [0..1]"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Diagnosis:
+    """Everything a report says. SI values."""
+
+    recording: Recording
+    verdict: Verdict
+    named: tuple[Named, ...]
+    where: tuple[Finding, ...]
+    gaps: Mapping[Signal, Gap]
+    main: Signal | None
+    """The signal the story is about."""
+    held_out: tuple[str, ...]
+    proposal: Proposal | None
+    """What to run next; none when nothing is open."""
+    signature: tuple[str, ...]
+    """What is left, in words; empty unless something is unexplained."""
+    untested: Mapping[str, str]
+    """Effects this recording cannot show, and why."""
+    seed: int
+    split: Split
+    found: Found
+    contest: Contest
+    conclusion: Conclusion
+
+    @property
+    def nominal(self) -> Point:
+        """The model as it came."""
+        return Point(np.zeros(len(self.split.train.constants)))
+
+    @property
+    def recalibrated(self) -> Point:
+        """The model with the best constants alone."""
+        return self.found.null.fit.point
+
+    @property
+    def explained(self) -> Point:
+        """The model with what was found."""
+        return self.contest.best.fit.point
+
+
+def diagnose(
+    recording: Recording,
+    model: Explanation,
+    tolerances: Mapping[str, float],
+    library: Mapping[str, type[Effect]],
+    seed: int = 0,
+    progress: Progress = lambda _what, _share: None,
+) -> Diagnosis:
+    """Find out what a model lacks to explain a recording.
+
+    Parameters
+    ----------
+    recording
+        Screened; see :func:`gripperd.recordings.read_recording`.
+    model
+        At its nominal constants.
+    tolerances
+        One sigma by path, as the model file states them. [SI]
+    library
+        Effects by name.
+    seed
+        Of every random draw: the same seed gives the same diagnosis.
+    progress
+        Told how far it is.
+
+    Raises
+    ------
+    InputError
+        When no stage of the model can be compared with what was measured.
+    """
+    rng = np.random.default_rng(seed)
+    progress("noise and drift", 0.05)
+    recording = thinned(believed(recording), MOST_ROWS)
+    parts = split(problem_of(recording, model, tolerances))
+    listed, untested = candidates(library, parts.train, _columns(recording))
+    progress("friction at rest", 0.2)
+    train = with_resting_sign(parts.train, listed)
+    parts = replace(parts, train=train, test=replace(parts.test, model=train.model))
+    progress("candidates, singles and pairs", 0.3)
+    found = search(train, listed, rng)
+    progress("rivals", 0.7)
+    best = contest(found, listed)
+    if _length_is_open(train, best, tolerances):
+        progress("rest length", 0.8)
+        best = _with_other_length(train, best, listed, rng)
+    progress("verdict", 0.9)
+    return _told(recording, parts, found, best, untested, seed)
+
+
+def _length_is_open(
+    train: Problem, best: Contest, tolerances: Mapping[str, float]
+) -> bool:
+    """Whether the zero of the recorded contraction is as uncertain as the rest length.
+
+    A recorder that counts from a rest length it does not know shifts every contraction.
+    """
+    sigma = tolerances.get("muscle.rest_length", 0.0)
+    loose = sigma > LOOSE * train.model.muscle.rest_length
+    return bool(best.best.candidates) and loose and train.model.told_length is None
+
+
+def _with_other_length(
+    train: Problem,
+    best: Contest,
+    listed: Sequence[Candidate],
+    rng: np.random.Generator,
+) -> Contest:
+    """Search again with the zero of contraction open; who leads then is a rival."""
+    told = replace(train.model, told_length=train.model.muscle.rest_length)
+    other = contest(search(replace(train, model=told), listed, rng), listed)
+    leaders = other.best.candidates[:1]
+    if not leaders or leaders[0].name in {best.best.names[0], *best.equivalents[0]}:
+        return best
+    rival = Rival((*leaders, *best.best.candidates[1:]), other.best.fit)
+    return replace(best, rivals=((*best.rivals[0], rival), *best.rivals[1:]))
+
+
+def _told(
+    recording: Recording,
+    parts: Split,
+    found: Found,
+    best: Contest,
+    untested: dict[str, str],
+    seed: int,
+) -> Diagnosis:
+    train = parts.train
+    # The noise of a table is not known, so what is left cannot be held against it.
+    judge = found.problem if is_table(train.courses) else train
+    conclusion = conclude(judge, found, best)
+    start = Point(np.zeros(len(train.constants)))
+    points = tuple(
+        with_usual_sign(train, point)
+        for point in (start, found.null.fit.point, best.best.fit.point)
+    )
+    judged = gaps(parts.test, points, train.noises, np.random.default_rng(seed))
+    entries = named(found, best, judged)
+    unexplained = conclusion.verdict is Verdict.UNEXPLAINED
+    return Diagnosis(
+        recording=recording,
+        verdict=conclusion.verdict,
+        named=entries,
+        where=findings(train, train.residuals(found.null.fit.point)),
+        gaps=judged,
+        main=_main(best, judged),
+        held_out=parts.runs,
+        proposal=_next(found.problem, best),
+        signature=signature(train, best, conclusion) if unexplained else (),
+        untested=untested | dict.fromkeys(found.faint, "leaves no trace here"),
+        seed=seed,
+        split=parts,
+        found=found,
+        contest=best,
+        conclusion=conclusion,
+    )
+
+
+def _columns(recording: Recording) -> frozenset[str]:
+    columns = {name for run in recording.runs for name in run.columns if run.has(name)}
+    return frozenset(columns | ({"contraction"} if "length" in columns else set()))
+
+
+def _main(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
+    """The signal of the first effect, else the one recalibration leaves worst."""
+    for candidate in best.best.candidates:
+        effect = candidate.effect
+        if effect and effect.stage is not Stage.SENSOR and effect.signal in judged:
+            return effect.signal
+    if Signal.FORCE in judged:
+        return Signal.FORCE
+    return max(judged, key=lambda one: judged[one].closed, default=None)
+
+
+def _next(problem: Problem, best: Contest) -> Proposal | None:
+    for rivals in best.rivals:
+        if rivals:
+            return proposal(problem, best.best, rivals[0])
+    return None

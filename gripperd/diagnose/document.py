@@ -1,0 +1,166 @@
+"""A diagnosis as the document that files and replies have, in the units of its keys."""
+
+from collections.abc import Mapping
+from typing import TypeAlias
+
+import numpy as np
+
+from gripperd.diagnose.columns import BY_QUANTITY, Column
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.gap import Gap
+from gripperd.diagnose.key import keys_of, number, public
+from gripperd.diagnose.named import Named
+from gripperd.diagnose.next_experiment import Proposal
+from gripperd.diagnose.recording import Contradiction
+from gripperd.diagnose.statement import statement, summary
+from gripperd.diagnose.where import Finding
+from gripperd.model.effect import Signal
+
+Document: TypeAlias = dict[str, object]
+
+UNNAMED = (Verdict.NONE, Verdict.UNEXPLAINED, Verdict.UNUSABLE)
+"""Verdicts that establish no effect."""
+
+
+def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
+    """Write a diagnosis; the same diagnosis gives the same document.
+
+    Numbers are finite or null. Without a name nothing stands under ``effects``; what
+    came nearest stands under ``nearest``.
+
+    Parameters
+    ----------
+    diagnosis
+        What was found.
+    model
+        Name of the model it is about.
+    program
+        Version of the program.
+    """
+    entries = [_effect(diagnosis, entry) for entry in diagnosis.named]
+    named = diagnosis.verdict not in UNNAMED
+    recording = diagnosis.recording
+    return {
+        "verdict": diagnosis.verdict.value,
+        "statement": summary(diagnosis),
+        "effects": entries if named else [],
+        "nearest": [] if named else entries,
+        "where": [_finding(one) for one in diagnosis.where],
+        "gap": gap_document(diagnosis, diagnosis.main) if diagnosis.main else None,
+        "gaps": {
+            BY_QUANTITY[signal.value].name: gap_document(diagnosis, signal)
+            for signal in diagnosis.gaps
+        },
+        "next_experiment": _next(diagnosis.proposal),
+        "rejected_samples": [
+            {
+                "run": one.run,
+                "column": one.column,
+                "count": one.count,
+                "reason": one.reason,
+            }
+            for one in recording.rejected
+        ],
+        "unexplained": {"signature": list(diagnosis.signature), "correction": "none"},
+        "untested": dict(diagnosis.untested),
+        "contradictions": [_contradiction(one) for one in recording.contradictions],
+        "remarks": list(recording.remarks),
+        "recording": {"name": recording.name, "sha256": recording.digest},
+        "model": model,
+        "seed": diagnosis.seed,
+        "program": program,
+    }
+
+
+def gap_document(diagnosis: Diagnosis, signal: Signal) -> Document:
+    """Write the gap of one signal."""
+    column, gap = BY_QUANTITY[signal.value], diagnosis.gaps[signal]
+    return {
+        "signal": column.name,
+        "unit": column.unit,
+        **_gap(gap, column),
+        "ci95_after": [number(end / column.scale) for end in gap.ci95_after],
+        "heldout_runs": list(diagnosis.held_out),
+    }
+
+
+def _gap(gap: Gap, column: Column) -> Document:
+    sizes = {
+        "rmse_before": gap.before,
+        "rmse_recalibrated": gap.recalibrated,
+        "rmse_after": gap.after,
+        "noise_floor": gap.noise_floor,
+    }
+    return {key: number(value / column.scale) for key, value in sizes.items()}
+
+
+def _effect(diagnosis: Diagnosis, entry: Named) -> Document:
+    keys, column = keys_of(entry), BY_QUANTITY[entry.signal.value]
+    return {
+        "name": public(entry.name),
+        "stage": entry.stage,
+        "statement": statement(diagnosis, entry),
+        "parameters": {
+            keys[name].text: {
+                "value": number(estimate.value / keys[name].factor),
+                "std": number(estimate.std / keys[name].factor),
+            }
+            for name, estimate in entry.parameters.items()
+        },
+        "size": {
+            "signal": column.name,
+            "unit": column.unit,
+            "rms": number(entry.size / column.scale),
+        },
+        "equivalents": [public(name) for name in entry.equivalents],
+        "evidence": {
+            "p_value": number(entry.p_value),
+            "delta_bic": number(entry.delta_bic),
+            "heldout_gain": number(entry.heldout_gain),
+        },
+    }
+
+
+def _finding(finding: Finding) -> Document:
+    column = BY_QUANTITY[finding.signal.value]
+    return {
+        "stage": finding.stage,
+        "signal": column.name,
+        "run": finding.run,
+        "region": _region(finding.region),
+        "bias": number(finding.bias / column.scale),
+        "std": number(finding.std / column.scale),
+        "unit": column.unit,
+        "p_value": number(finding.p_value),
+    }
+
+
+def _region(region: Mapping[str, tuple[float, float]]) -> Document:
+    written: Document = {}
+    for name, ends in region.items():
+        column = BY_QUANTITY.get(name, Column(name, name))
+        values = column.written(np.array(ends)).tolist()
+        written[column.name] = [number(value) for value in values]
+    return written
+
+
+def _next(proposal: Proposal | None) -> Document | None:
+    if proposal is None:
+        return None
+    return {
+        "kind": proposal.kind.value if proposal.kind else None,
+        "why": proposal.why,
+        "plan": dict(proposal.plan),
+    }
+
+
+def _contradiction(found: Contradiction) -> Document:
+    return {
+        "runs": list(found.runs),
+        "others": list(found.others),
+        "column": found.column,
+        "difference": number(found.difference),
+        "unit": found.unit,
+        "spread": number(found.spread),
+    }

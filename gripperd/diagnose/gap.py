@@ -1,0 +1,111 @@
+"""How far simulation and measurement are apart on what took no part in the fit.
+
+References
+----------
+.. [1] P. Hall, J. L. Horowitz, B.-Y. Jing, "On blocking rules for the bootstrap with
+       dependent data", Biometrika 82(3), 561-574, 1995.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gripperd.diagnose.noise import Noise
+from gripperd.diagnose.problem import Point, Problem
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+STRETCH = 40
+"""Samples that are drawn together, longer than the noise remembers."""
+DRAWS = 400
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Root mean square of measured minus predicted, of one signal. SI."""
+
+    signal: Signal
+    before: float
+    """With the model as it came."""
+    recalibrated: float
+    """With the best constants alone."""
+    after: float
+    """With the effects."""
+    noise_floor: float
+    """Repeatability of the measurement itself."""
+    ci95_after: tuple[float, float]
+
+    @property
+    def closed(self) -> float:
+        """Share of the mean square above the noise that recalibration left. [-]."""
+        floor = self.noise_floor**2
+        left = self.recalibrated**2 - floor
+        return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
+
+
+def gaps(
+    test: Problem,
+    points: Sequence[Point],
+    noises: Mapping[Signal, Noise],
+    rng: np.random.Generator,
+) -> dict[Signal, Gap]:
+    """Judge three points by what none of them was fitted to.
+
+    Parameters
+    ----------
+    test
+        The sweeps that were left out.
+    points
+        The model as it came, with the best constants, and with the effects.
+    noises
+        Of each signal.
+    rng
+        For the interval.
+    """
+    before, recalibrated, after = (by_signal(test, point) for point in points)
+    return {
+        signal: Gap(
+            signal,
+            _rms(before[signal]),
+            _rms(recalibrated[signal]),
+            _rms(after[signal]),
+            noises[signal].floor,
+            _interval(after[signal], rng),
+        )
+        for signal in after
+    }
+
+
+def with_usual_sign(train: Problem, point: Point) -> Point:
+    """Give sweeps that were left out the mean sign of friction of those that were not.
+
+    How the rig came to rest in them is as unknown as in the others, and not fitted.
+    """
+    fitted = {block.course for block in train.blocks}
+    own = [(i, c.course) for i, c in enumerate(train.constants) if c.course is not None]
+    known = [point.shifts[i] for i, course in own if course in fitted]
+    unknown = [i for i, course in own if course not in fitted]
+    shifts = point.shifts.copy()
+    shifts[unknown] = float(np.mean(known)) if known else 0.0
+    return replace(point, shifts=shifts)
+
+
+def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:
+    """Residuals of each signal, in order of time. [SI]."""
+    found: dict[Signal, list[Array]] = {}
+    for block, residual in zip(problem.blocks, problem.residuals(point), strict=True):
+        found.setdefault(block.signal, []).append(residual)
+    return {signal: np.concatenate(pieces) for signal, pieces in found.items()}
+
+
+def _rms(residual: Array) -> float:
+    return float(np.sqrt(np.mean(residual**2)))
+
+
+def _interval(residual: Array, rng: np.random.Generator) -> tuple[float, float]:
+    count = max(residual.size // STRETCH, 1)
+    means = np.array([np.mean(piece**2) for piece in np.array_split(residual, count)])
+    drawn = means[rng.integers(0, count, (DRAWS, count))].mean(1)
+    low, high = np.sqrt(np.quantile(drawn, (0.025, 0.975)))
+    return float(low), float(high)

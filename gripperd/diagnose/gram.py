@@ -1,0 +1,127 @@
+"""Linear Gaussian fits in the space of inner products, where each costs microseconds.
+
+Columns are whitened and scaled by their prior sigma, so with ``G = Z'Z`` and
+``b = Z'y`` the best coefficients of a set of columns A are ``(G_AA + 1)^-1 b_A``.
+
+References
+----------
+.. [1] C. M. Bishop, "Pattern Recognition and Machine Learning", Springer, 2006,
+       section 3.5.1: evidence of a linear model.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripperd.model.track import Array
+
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """Best coefficients of some columns."""
+
+    columns: Indices
+    coefficients: Array
+    cost: float
+    """Misfit plus prior: chi² at the best. [-]"""
+    evidence: float
+    """Log of the marginal likelihood, up to what all fits share. [nat]"""
+
+
+@dataclass(frozen=True)
+class Gram:
+    """Inner products of whitened columns and residual, run by run."""
+
+    products: Array
+    """Shape ``(runs, m, m)``."""
+    moments: Array
+    """With the residual, shape ``(runs, m)``."""
+    squares: Array
+    """Of the residual, shape ``(runs,)``."""
+    counts: Array
+    """Samples, shape ``(runs,)``."""
+    low: Array
+    """Least coefficient that physics or a tolerance allows, shape ``(m,)``."""
+    high: Array
+    """Largest."""
+
+    @cached_property
+    def _total(self) -> tuple[Array, Array, float]:
+        return self.products.sum(0), self.moments.sum(0), float(self.squares.sum())
+
+    def fit(self, columns: Sequence[int] | Indices, without: int | None = None) -> Fit:
+        """Fit some columns, with or without one run.
+
+        A coefficient that would leave its bounds stays on them.
+        """
+        products, moments, square = self._total
+        if without is not None:
+            products = products - self.products[without]
+            moments = moments - self.moments[without]
+            square -= float(self.squares[without])
+        kept = np.asarray(columns, dtype=np.intp)
+        matrix = products[np.ix_(kept, kept)] + np.eye(kept.size)
+        best = bounded(matrix, moments[kept], self.low[kept], self.high[kept])
+        cost = square - float((2 * moments[kept] - matrix @ best) @ best)
+        volume = float(np.linalg.slogdet(matrix)[1])
+        return Fit(kept, best, cost, -0.5 * (cost + volume))
+
+    def tempered(self, temperature: float) -> "Gram":
+        """Give the same with noise louder by the root of a temperature."""
+        return Gram(
+            self.products / temperature, self.moments / temperature,
+            self.squares / temperature, self.counts, self.low, self.high,
+        )  # fmt: skip
+
+    def misfit(self, fit: Fit, run: int) -> float:
+        """Chi² of one run under a fit, without the prior."""
+        c, kept = fit.coefficients, fit.columns
+        products = self.products[run][np.ix_(kept, kept)]
+        return float(
+            self.squares[run] - 2 * c @ self.moments[run][kept] + c @ products @ c
+        )
+
+    def held_out(self, columns: Sequence[int] | Indices) -> Array:
+        """Chi² of each run under the fit to all others, shape ``(runs,)``."""
+        return np.array(
+            [
+                self.misfit(self.fit(columns, without=run), run)
+                for run in range(self.squares.size)
+            ]
+        )
+
+
+def bounded(matrix: Array, moments: Array, low: Array, high: Array) -> Array:
+    """Solve normal equations within bounds: what leaves them most is put on them.
+
+    Parameters
+    ----------
+    matrix, moments
+        Of the normal equations, shapes ``(k, k)`` and ``(k,)``.
+    low, high
+        Bounds of the solution, shape ``(k,)``.
+    """
+    free = np.ones(moments.size, dtype=bool)
+    best = np.zeros_like(moments)
+    for _ in range(4 * moments.size):
+        rest = moments[free] - matrix[np.ix_(free, ~free)] @ best[~free]
+        best[free] = np.linalg.solve(matrix[np.ix_(free, free)], rest)
+        over = np.where(free, np.maximum(best - high, low - best), 0.0)
+        worst = int(np.argmax(over))
+        if over[worst] > 1e-9:
+            free[worst] = False
+            best[worst] = min(max(best[worst], low[worst]), high[worst])
+            continue
+        # What the bound no longer holds is let go (Karush-Kuhn-Tucker).
+        inward = (moments - matrix @ best) * np.where(best <= low, 1.0, -1.0)
+        inward[free] = 0.0
+        worst = int(np.argmax(inward))
+        if inward[worst] <= 1e-9:
+            break
+        free[worst] = True
+    return np.clip(best, low, high)

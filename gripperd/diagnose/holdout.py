@@ -1,0 +1,99 @@
+"""Sweeps that take no part in choosing or fitting, on which the gap is judged.
+
+References
+----------
+.. [1] D. R. Roberts et al., "Cross-validation strategies for data with temporal,
+       spatial, hierarchical, or phylogenetic structure", Ecography 40(8), 913-929,
+       2017: leave out whole blocks, for neighbours share noise and memory.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gripperd.diagnose.course import Course
+from gripperd.diagnose.problem import Mask, Problem
+
+SHARE = 0.2
+"""Of the sweeps that can be spared. [-]"""
+FEW = 5
+"""With fewer sweeps none can be spared: the end of each is left out instead."""
+TAIL = 0.25
+"""Part of a sweep that is left out then. [-]"""
+
+
+@dataclass(frozen=True)
+class Split:
+    """A recording in two parts that share no sweep, or no stretch of one."""
+
+    train: Problem
+    test: Problem
+    runs: tuple[str, ...]
+    """Names of what was left out."""
+
+
+def split(problem: Problem) -> Split:
+    """Leave out every fifth sweep that lies within what the others cover."""
+    courses = problem.courses
+    if len(courses) < FEW:
+        cut = [_tail(course) for course in courses]
+        names = tuple(f"{course.run} (last quarter)" for course in courses)
+    else:
+        out = _spared(courses)
+        cut = [
+            np.full(len(course), index in out) for index, course in enumerate(courses)
+        ]
+        names = tuple(courses[index].run for index in sorted(out))
+    test = tuple(cut)
+    train = tuple(~mask for mask in cut)
+    return Split(replace(problem, kept=train), replace(problem, kept=test), names)
+
+
+def _tail(course: Course) -> Mask:
+    mask = np.zeros(len(course), dtype=bool)
+    mask[round((1 - TAIL) * len(course)) :] = True
+    return mask
+
+
+def _spared(courses: Sequence[Course]) -> set[int]:
+    """Sweeps whose inputs lie inside the range of the rest, spread over the order.
+
+    The first of a recording stays: only it can show a first inflation.
+    """
+    wanted = max(1, round(SHARE * len(courses)))
+    inner = [
+        index for index in range(1, len(courses)) if _inside(courses, index)
+    ] or list(range(1, len(courses)))
+    places = np.linspace(0, len(inner) - 1, wanted + 2)[1:-1]
+    spared = {inner[round(place)] for place in places}
+    grasps = [
+        index
+        for index, course in enumerate(courses)
+        if np.isfinite(course.column("opening")).any()
+    ]
+    # Of three grasps one can be spared, or no jaw is judged by what it did not fit.
+    if len(grasps) >= 3 and not spared & set(grasps):
+        spared.add(grasps[len(grasps) // 2])
+    return spared
+
+
+def _inside(courses: Sequence[Course], index: int) -> bool:
+    """Whether other sweeps reach as far as this one, in every input."""
+    for name in ("current", "pressure", "contraction", "temperature"):
+        own = courses[index].level(name)
+        if not np.isfinite(own).any():
+            continue
+        others = [
+            course.level(name)
+            for place, course in enumerate(courses)
+            if place != index and np.isfinite(course.level(name)).any()
+        ]
+        if not others:
+            return False
+        low = min(float(np.nanmin(other)) for other in others)
+        high = max(float(np.nanmax(other)) for other in others)
+        margin = 0.02 * (high - low)
+        if np.nanmin(own) < low - margin or np.nanmax(own) > high + margin:
+            return False
+    return True

@@ -1,0 +1,114 @@
+"""Inputs without their noise: a local linear trend, as stiff as the noise allows.
+
+References
+----------
+.. [1] J. Durbin, S. J. Koopman, "Time Series Analysis by State Space Methods", 2nd
+       ed., Oxford, 2012, section 3.2.1 (local linear trend) and 4.4 (smoother).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from gripperd.model.compiled import compiled
+from gripperd.model.track import Array
+
+STIFFNESSES = 10.0 ** np.arange(-8.0, 5.0)
+"""Spectral densities of the slope tried, in units of ``noise² / s³``."""
+
+
+class Smooth(NamedTuple):
+    """A column without its noise, shape ``(n,)`` each."""
+
+    value: Array
+    rate: Array
+    """Its time derivative, per second."""
+    likelihood: float = -np.inf
+    """Log density of the column, up to a constant. [nat]"""
+
+
+def smooth(time: Array, column: Array, variance: float, supple: float = 1.0) -> Smooth:
+    """Take the noise off one column of one run.
+
+    Parameters
+    ----------
+    time
+        Rising, shape ``(n,)``. [s]
+    column
+        What was measured; NaN is bridged.
+    variance
+        Of the noise as a mean over many samples sees it: the white variance times
+        ``(1 + rho) / (1 - rho)``. The trend is as stiff as its likelihood allows.
+    supple
+        How much less stiff it shall be, so that corners stay sharp.
+    """
+    if variance <= 0 or column.size < 3 or not np.isfinite(column).any():
+        rate = np.gradient(column, time) if column.size > 1 else np.zeros_like(column)
+        return Smooth(column, rate)
+    scale = np.sqrt(variance)
+    scaled = (column - np.nanmean(column)) / scale
+    step = np.diff(time, prepend=time[0])
+    likelihoods = [compiled(_filter)(scaled, step, q)[0] for q in STIFFNESSES]
+    best = STIFFNESSES[int(np.argmax(likelihoods))] * supple
+    _, states, spreads = compiled(_filter)(scaled, step, best)
+    level, slope = compiled(_smoother)(states, spreads, step, best)
+    return Smooth(level * scale + np.nanmean(column), slope * scale, max(likelihoods))
+
+
+def _filter(column: Array, step: Array, q: float) -> tuple[float, Array, Array]:
+    """Kalman filter: log likelihood, filtered states (n, 2), covariances (n, 3)."""
+    n = column.size
+    states = np.empty((n, 2))
+    spreads = np.empty((n, 3))
+    level, slope = 0.0, 0.0
+    a, b, c = 1e6, 0.0, 1e6
+    likelihood = 0.0
+    for i in range(n):
+        dt = step[i]
+        level = level + dt * slope
+        a = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3
+        b = b + dt * c + q * dt * dt / 2
+        c = c + q * dt
+        if np.isfinite(column[i]):
+            innovation = column[i] - level
+            variance = a + 1.0
+            gain, drag = a / variance, b / variance
+            level += gain * innovation
+            slope += drag * innovation
+            c -= drag * b
+            b -= drag * a
+            a -= gain * a
+            likelihood -= 0.5 * (np.log(variance) + innovation * innovation / variance)
+        states[i, 0], states[i, 1] = level, slope
+        spreads[i, 0], spreads[i, 1], spreads[i, 2] = a, b, c
+    return likelihood, states, spreads
+
+
+def _smoother(
+    states: Array, spreads: Array, step: Array, q: float
+) -> tuple[Array, Array]:
+    """Rauch-Tung-Striebel pass backwards: level and slope."""
+    n = step.size
+    level = states[:, 0].copy()
+    slope = states[:, 1].copy()
+    for i in range(n - 2, -1, -1):
+        dt = step[i + 1]
+        a, b, c = spreads[i, 0], spreads[i, 1], spreads[i, 2]
+        # Predicted covariance of the next state, and the gain P F' / predicted.
+        pa = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3
+        pb = b + dt * c + q * dt * dt / 2
+        pc = c + q * dt
+        determinant = pa * pc - pb * pb
+        if determinant <= 0:
+            continue
+        fa, fb = a + dt * b, b
+        ga, gb = b + dt * c, c
+        k11 = (fa * pc - fb * pb) / determinant
+        k12 = (fb * pa - fa * pb) / determinant
+        k21 = (ga * pc - gb * pb) / determinant
+        k22 = (gb * pa - ga * pb) / determinant
+        ahead = level[i + 1] - (states[i, 0] + dt * states[i, 1])
+        bend = slope[i + 1] - states[i, 1]
+        level[i] = states[i, 0] + k11 * ahead + k12 * bend
+        slope[i] = states[i, 1] + k21 * ahead + k22 * bend
+    return level, slope

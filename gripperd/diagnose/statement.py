@@ -1,0 +1,151 @@
+"""What a diagnosis says, in sentences a person can act on."""
+
+from collections.abc import Sequence
+
+from gripperd.diagnose.candidates import WRONG
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.key import key_of_constant, keys_of
+from gripperd.diagnose.named import Named
+from gripperd.diagnose.where import Finding
+from gripperd.model.effect import Signal
+
+PLACES = {"time": 0, "pressure": 0, "contraction": 3}
+"""Decimal places of a region, in the unit of the file."""
+
+
+def summary(diagnosis: Diagnosis) -> str:
+    """Say the verdict in one sentence."""
+    gap = _closed(diagnosis)
+    match diagnosis.verdict:
+        case Verdict.NAMED:
+            return f"The model {_told(diagnosis.named)}{gap}."
+        case Verdict.AMBIGUOUS:
+            return (
+                f"The model is off, and this recording cannot tell {_open(diagnosis)}."
+            )
+        case Verdict.UNEXPLAINED:
+            return "The model is off, and no effect of the library explains it."
+        case Verdict.NONE:
+            return f"Nothing is missing: what is left is noise{gap}."
+        case Verdict.UNUSABLE:
+            return "The recording contradicts itself: no verdict can rest on it."
+
+
+def statement(diagnosis: Diagnosis, entry: Named) -> str:
+    """Say what one effect or constant does and what to do about it, in one sentence."""
+    if entry.effect is None:
+        return f"{_corrected(diagnosis, entry)}; correct the model{_or(entry)}."
+    title, worth = _plain(entry.name).capitalize(), _size(entry.signal, entry.size)
+    size = f"worth {worth} of {entry.signal.value} (rms)"
+    if diagnosis.verdict is Verdict.UNEXPLAINED:
+        return f"{title} comes nearest, {size}, and does not explain what is seen."
+    return (
+        f"{title} is at work, {size}: {entry.effect.shows}; so"
+        f" {entry.effect.remedy}{_or(entry)}."
+    )
+
+
+def _corrected(diagnosis: Diagnosis, entry: Named) -> str:
+    """Say what a constant is instead.
+
+    Written as "The diameter is 18.6 ± 0.1 mm, not 20 mm".
+    """
+    assert entry.path is not None
+    (estimate,) = entry.parameters.values()
+    key = key_of_constant(entry.path)
+    nominal = next(
+        one.nominal
+        for one in diagnosis.found.problem.constants
+        if one.path == entry.path
+    )
+    doubt = f"{estimate.std / key.factor:.2g}"
+    return (
+        f"The {key.title} is {key.shown(estimate.value)} (± {doubt}),"
+        f" not {key.shown(nominal)}"
+    )
+
+
+def _told(entries: Sequence[Named]) -> str:
+    effects = [one.name.replace("_", " ") for one in entries if one.effect]
+    wrong = [
+        f"{key.title} ({key.shown(estimate.value)})"
+        for one in entries
+        if not one.effect
+        for key, estimate in zip(
+            keys_of(one).values(), one.parameters.values(), strict=True
+        )
+    ]
+    said = []
+    if effects:
+        said.append(f"lacks {listed(effects)}")
+    if wrong:
+        said.append(f"has a wrong {listed(wrong)}")
+    return " and ".join(said)
+
+
+def _closed(diagnosis: Diagnosis) -> str:
+    if diagnosis.main is None:
+        return ""
+    gap = diagnosis.gaps[diagnosis.main]
+    column = BY_QUANTITY[diagnosis.main.value]
+    before, after, floor = (
+        f"{value / column.scale:.3g}"
+        for value in (gap.before, gap.after, gap.noise_floor)
+    )
+    return (
+        f"; on data it never saw the {diagnosis.main.value} is off by"
+        f" {after} {column.unit} instead of {before} {column.unit}, and repeats"
+        f" by {floor} {column.unit}"
+    )
+
+
+def _open(diagnosis: Diagnosis) -> str:
+    rivals = [
+        f"{_plain(one.name)} from {listed(list(map(_plain, one.equivalents)), 'or')}"
+        for one in diagnosis.named
+        if one.equivalents
+    ]
+    return listed(rivals)
+
+
+def _or(entry: Named) -> str:
+    if not entry.equivalents:
+        return ""
+    others = listed(list(map(_plain, entry.equivalents)), "or")
+    return f"; this recording cannot tell it from {others}"
+
+
+def _size(signal: Signal, size: float) -> str:
+    column = BY_QUANTITY[signal.value]
+    return f"{size / column.scale:.3g} {column.unit}".rstrip()
+
+
+def _plain(name: str) -> str:
+    if name.startswith(WRONG):
+        return f"a wrong {key_of_constant(name.removeprefix(WRONG)).title}"
+    return name.replace("_", " ")
+
+
+def span(finding: Finding, name: str) -> str:
+    """Write one end of a region to the other, ``-`` when it says nothing of it."""
+    if name not in finding.region:
+        return "-"
+    column = BY_QUANTITY[name]
+    places = PLACES.get(name, 1)
+    low, high = ((end - column.zero) / column.scale for end in finding.region[name])
+    # Adding 0 turns what would read as -0 into 0.
+    ends = [f"{round(end, places) + 0.0:.{places}f}" for end in (low, high)]
+    return " to ".join(dict.fromkeys(ends))
+
+
+def listed(words: Sequence[str], last: str = "and") -> str:
+    """Join words the way a sentence has them.
+
+    >>> listed(["a", "b", "c"], "or")
+    'a, b or c'
+    """
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"
