@@ -1,8 +1,10 @@
 """Settings, profiles and models: the only reader of files and environment."""
 
 from gripperd.config.complaint import Complaint
+from gripperd.config.lineage import Lineage, Provenance
 from gripperd.config.location import shipped
 from gripperd.config.model import ModelFile, load_chain, load_model, reference_chain
+from gripperd.config.model_text import model_document, model_text
 from gripperd.config.profile import (
     load_profile,
     load_profiles,
@@ -35,7 +37,9 @@ __all__ = [
     "FailMode",
     "GripperSettings",
     "Http",
+    "Lineage",
     "ModelFile",
+    "Provenance",
     "SavedProfiles",
     "Settings",
     "delete_profile",
@@ -45,6 +49,8 @@ __all__ = [
     "load_profile",
     "load_profiles",
     "load_settings",
+    "model_document",
+    "model_text",
     "parse_profile",
     "profile_document",
     "reference_chain",

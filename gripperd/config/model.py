@@ -3,15 +3,18 @@
 # ruff: noqa: N815  (names carry units, and units have capitals)
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import cast
 
 from pydantic import Field, ValidationInfo, field_validator
 
 from gripperd.config.complaint import Complaint, KeyPath
 from gripperd.config.document import Document, read_document
-from gripperd.config.effect import Effects, Library
+from gripperd.config.effect import Effects, Library, keys_of_effect
+from gripperd.config.lineage import Lineage
 from gripperd.config.location import shipped
+from gripperd.config.number import factor_of
 from gripperd.config.section import (
     ENDS,
     Kilopascals,
@@ -24,18 +27,19 @@ from gripperd.config.section import (
 )
 from gripperd.config.tolerance import Sigmas, moved, without_tolerances
 from gripperd.config.validation import validated
-from gripperd.config.wording import unit_of
+from gripperd.diagnose.stages import Explanation
 from gripperd.effects import EFFECTS
 from gripperd.errors import ConfigError
 from gripperd.model import (
     Chain,
     Linkage,
     Muscle,
-    MuscleEffect,
     Regulator,
     StaticMuscle,
 )
-from gripperd.units import SI_PER_UNIT, split
+from gripperd.model.effect import Effect, acts_in_muscle
+from gripperd.model.parameter import parameters
+from gripperd.units import split
 
 
 class MuscleSection(Section):
@@ -85,18 +89,36 @@ class ModelSection(Section):
     effects: Effects = ()
 
 
+class VersionSection(Lineage, ModelSection):
+    """The file of a version: a model file that says where it comes from."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelFile:
     """A model as a file has it: perhaps only a muscle."""
 
     name: str
     static: StaticMuscle
+    """The muscle, with the effects that act in it."""
     regulator: Regulator | None
     linkage: Linkage | None
+    effects: tuple[Effect, ...] = ()
+    """Those that act elsewhere."""
     tolerances: Mapping[str, float]
     """One sigma by path, as in :class:`gripperd.model.Chain`. [SI]"""
-    source: str
+    lineage: Lineage | None = None
+    """Where it comes from; None for a model that a person wrote."""
+    source: str = field(compare=False)
     """The file it came from."""
+
+    def explanation(self) -> Explanation:
+        """Give what a diagnosis starts from: the model at its nominal constants."""
+        return Explanation(
+            muscle=self.static.muscle,
+            regulator=self.regulator,
+            linkage=self.linkage,
+            effects=(*cast("tuple[Effect, ...]", self.static.effects), *self.effects),
+        )
 
     def chain(self) -> Chain:
         """Build the chain from valve current to grip force.
@@ -120,13 +142,16 @@ class ModelFile:
                 )
             )
         return Chain(
-            self.name, self.static, self.regulator, self.linkage, self.tolerances
+            self.name,
+            self.static,
+            self.regulator,
+            self.linkage,
+            self.tolerances,
+            effects=self.effects,
         )
 
 
-def load_model(
-    path: Path, effects: Mapping[str, type[MuscleEffect]] = EFFECTS
-) -> ModelFile:
+def load_model(path: Path, effects: Mapping[str, type[Effect]] = EFFECTS) -> ModelFile:
     """Read a model file.
 
     Parameters
@@ -142,14 +167,18 @@ def load_model(
         With everything that is wrong with it.
     """
     document, sigmas = without_tolerances(read_document(path))
-    section = validated(ModelSection, document, Library(document, effects))
+    section = validated(_schema(document), document, Library(document, effects))
     _check_ends(document, sigmas, effects)
+    in_muscle = tuple(filter(acts_in_muscle, section.effects))
+    elsewhere = (each for each in section.effects if not acts_in_muscle(each))
     return ModelFile(
         name=section.name,
-        static=StaticMuscle(Muscle(**numbers(section.muscle)), section.effects),
+        static=StaticMuscle(Muscle(**numbers(section.muscle)), in_muscle),
         regulator=Regulator(**numbers(section.valve)) if section.valve else None,
         linkage=Linkage(**numbers(section.gripper)) if section.gripper else None,
+        effects=tuple(elsewhere),
         tolerances=_constants(section, sigmas),
+        lineage=_lineage(section),
         source=str(path),
     )
 
@@ -170,14 +199,26 @@ def reference_chain() -> Chain:
     return load_chain(shipped("models/reference.yaml"))
 
 
+def _schema(document: Document) -> type[ModelSection]:
+    value = document.value
+    is_version = isinstance(value, dict) and "version" in value
+    return VersionSection if is_version else ModelSection
+
+
+def _lineage(section: ModelSection) -> Lineage | None:
+    if not isinstance(section, VersionSection):
+        return None
+    return Lineage(**{name: getattr(section, name) for name in Lineage.model_fields})
+
+
 def _check_ends(
-    document: Document, sigmas: Sigmas, effects: Mapping[str, type[MuscleEffect]]
+    document: Document, sigmas: Sigmas, effects: Mapping[str, type[Effect]]
 ) -> None:
     """Refuse a tolerance of which one sigma is already impossible."""
     for by, word in ((1, "plus"), (-1, "minus")):
         end = moved(document, sigmas, by)
         try:
-            validated(ModelSection, end, Library(end, effects))
+            validated(_schema(end), end, Library(end, effects))
         except ConfigError as refused:
             raise ConfigError(
                 *(
@@ -189,21 +230,23 @@ def _check_ends(
 
 
 def _constants(section: ModelSection, sigmas: Sigmas) -> dict[str, float]:
-    return {
-        _constant(section, path): sigma * SI_PER_UNIT.get(unit_of(path) or "", 1.0)
-        for path, sigma in sigmas.items()
-    }
+    return dict(_constant(section, path, sigmas[path]) for path in sigmas)
 
 
-def _constant(section: ModelSection, path: KeyPath) -> str:
-    """Path of a constant in a chain, from its place in a file that passed the schema.
+def _constant(section: ModelSection, path: KeyPath, sigma: float) -> tuple[str, float]:
+    """Path in a chain and sigma in SI, of a number of a file that passed the schema.
 
     ``("valve", "pressure_kPa", 1)`` gives ``valve.pressure_high``.
     """
     part, step, *rest = path
     if part == "effects":
         effect = section.effects[int(step)]
-        return f"effects.{effect.name}.{split(str(rest[0]))[0]}"
+        names = {key: name for name, key in keys_of_effect(effect).items()}
+        name = names[str(rest[0])]
+        unit = parameters(effect)[name].unit
+        return f"effects.{effect.name}.{name}", sigma * factor_of(unit)
     schema = type(getattr(section, str(part)))
-    field = {key_of(schema, field): field for field in schema.model_fields}[str(step)]
-    return "_".join([f"{part}.{split(field)[0]}", *(ENDS[int(end)] for end in rest)])
+    fields = {key_of(schema, each): each for each in schema.model_fields}
+    name, unit = split(fields[str(step)])
+    ends = (ENDS[int(end)] for end in rest)
+    return "_".join([f"{part}.{name}", *ends]), sigma * factor_of(unit)

@@ -1,15 +1,13 @@
 """Profiles that users saved through the service: a folder of files like the shipped."""
 
-import os
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
-
 from gripperd.config.complaint import Complaint
+from gripperd.config.durable import remove_file, replace_file
 from gripperd.config.profile import profile_document, readable_profiles
+from gripperd.config.text import yaml_text
 from gripperd.control.profile import Profile
 
 
@@ -46,22 +44,7 @@ def write_profile(profile: Profile, folder: Path) -> None:
     OSError
         It was not saved; the old one is still there.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    text = yaml.safe_dump(
-        profile_document(profile), sort_keys=False, allow_unicode=True
-    )
-    draft = folder / f".{profile.name}.draft"
-    try:
-        with draft.open("w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        draft.replace(_file(profile.name, folder))
-    except OSError:
-        with suppress(OSError):
-            draft.unlink()
-        raise
-    _settle(folder)
+    replace_file(_file(profile.name, folder), yaml_text(profile_document(profile)))
 
 
 def delete_profile(name: str, folder: Path) -> None:
@@ -72,18 +55,8 @@ def delete_profile(name: str, folder: Path) -> None:
     OSError
         It is still there.
     """
-    _file(name, folder).unlink(missing_ok=True)
-    _settle(folder)
+    remove_file(_file(name, folder))
 
 
 def _file(name: str, folder: Path) -> Path:
     return folder / f"{name}.yaml"
-
-
-def _settle(folder: Path) -> None:
-    """Make what happened to the names in a folder outlast a power cut."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

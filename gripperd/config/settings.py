@@ -6,6 +6,7 @@ from enum import StrEnum
 from ipaddress import ip_address
 from pathlib import Path
 
+from gripperd.config.model import ModelFile
 from gripperd.control.profile import Profile
 from gripperd.drivers.analog import InputWiring, OutputWiring
 from gripperd.drivers.bus import TcpAddress
@@ -78,7 +79,9 @@ class GripperSettings:
     output: OutputWiring
     input: InputWiring | None
     """None: no sensors are fitted; all is left to the model."""
+    model: ModelFile
     chain: Chain
+    """The same, from valve current to grip force."""
     fail_mode: FailMode
     auto_enable: bool
     """Enable after a start without being asked."""

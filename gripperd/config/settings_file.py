@@ -13,7 +13,7 @@ from pydantic import Field, PlainValidator, ValidationInfo, field_validator
 
 from gripperd.config.document import read_document
 from gripperd.config.location import shipped
-from gripperd.config.model import load_chain
+from gripperd.config.model import ModelFile, load_model
 from gripperd.config.profile import load_profiles
 from gripperd.config.section import Name, Section
 from gripperd.config.settings import (
@@ -41,11 +41,12 @@ from gripperd.config.wiring import (
 )
 from gripperd.config.wording import shown
 from gripperd.control.profile import Profile
-from gripperd.model import Chain
 
 
-def _chain(name: object, asked: ValidationInfo) -> Chain:
-    return load_chain(_named(name, asked))
+def _model(name: object, asked: ValidationInfo) -> ModelFile:
+    model = load_model(_named(name, asked))
+    model.chain()
+    return model
 
 
 def _profiles(name: object, asked: ValidationInfo) -> Mapping[str, Profile]:
@@ -92,7 +93,7 @@ class GripperSection(Section):
     bus: BusName
     output: OutputSection
     input: InputSection | None = Field(default=None, validate_default=True)
-    model: Annotated[Chain, PlainValidator(_chain)]
+    model: Annotated[ModelFile, PlainValidator(_model)]
     fail_mode: Annotated[FailMode, Field(strict=False)]
     auto_enable: bool = False
     rate_Hz: float = Field(default=100.0, ge=1, le=500)
@@ -117,11 +118,11 @@ class GripperSection(Section):
 
     @field_validator("model")
     @classmethod
-    def _can_be_driven(cls, chain: Chain, read: ValidationInfo) -> Chain:
+    def _can_be_driven(cls, model: ModelFile, read: ValidationInfo) -> ModelFile:
         output = read.data.get("output")
         if output is not None:
-            check_driven(chain.regulator, output.module)
-        return chain
+            check_driven(model.chain().regulator, output.module)
+        return model
 
     def settings(self, name: str) -> GripperSettings:
         """The same in SI."""
@@ -131,7 +132,8 @@ class GripperSection(Section):
             bus=tcp or BenchBus(),
             output=self.output.wiring,
             input=self.input.wiring if self.input else None,
-            chain=self.model,
+            model=self.model,
+            chain=self.model.chain(),
             fail_mode=self.fail_mode,
             auto_enable=self.auto_enable,
             rate=self.rate_Hz,
@@ -159,6 +161,21 @@ class SettingsSection(Section):
                 if owner.setdefault(thing, use) != use:
                     message = f"{thing} is both {owner[thing]} and {use}"
                     raise ValueError(message)
+        return grippers
+
+    @field_validator("grippers")
+    @classmethod
+    def _tell_models_apart(
+        cls, grippers: dict[str, GripperSection]
+    ) -> dict[str, GripperSection]:
+        """Versions are kept by the name of their model."""
+        known: dict[str, ModelFile] = {}
+        for gripper in grippers.values():
+            model = gripper.model
+            if known.setdefault(model.name, model) != model:
+                first = known[model.name].source
+                message = f"{first} and {model.source} differ, both named {model.name}"
+                raise ValueError(message)
         return grippers
 
 

@@ -49,7 +49,7 @@ def unit_of(path: KeyPath) -> str | None:
 def describe(error: "ErrorDetails", path: KeyPath) -> str:
     """Say what is wrong with the value at a path."""
     kind, value = error["type"], error["input"]
-    unit = (unit_of(path) or "").replace("_per_", "/")
+    unit = spelt(unit_of(path))
     context = error.get("ctx", {})
     if kind in BEYOND:
         limit, relation = BEYOND[kind]
@@ -70,6 +70,16 @@ def describe(error: "ErrorDetails", path: KeyPath) -> str:
         low, high = (quantity(end, unit) for end in value)
         return f"the low end, {low}, is not below the high end, {high}"
     return f"{shown(value)}: {error['msg'][:1].lower()}{error['msg'][1:]}"
+
+
+def spelt(unit: str | None) -> str:
+    """Write the unit of a key for a person.
+
+    >>> spelt("N_per_mm"), spelt("per_MPa"), spelt(None)
+    ('N/mm', '1/MPa', '')
+    """
+    spaced = (unit or "").replace("_per_", "/")
+    return f"1/{spaced.removeprefix('per_')}" if spaced.startswith("per_") else spaced
 
 
 def quantity(value: object, unit: str) -> str:

@@ -402,3 +402,19 @@ def test_the_bench_is_one_rig(settings_file: Path, refusal: Refusal) -> None:
     assert said == (
         "own.yaml:1: grippers: the bench is both the rig of left and the rig of right"
     )
+
+
+def test_two_models_do_not_share_a_name(
+    settings_file: Path, refusal: Refusal, write: Write
+) -> None:
+    right = GRIPPER.removeprefix("grippers:\n").replace("left", "right")
+    right = right.replace("channel: 7", "channel: 6")
+    settings_file.write_text(GRIPPER + right + "profiles: objects\n")
+    assert len(load_settings(settings_file, {}).grippers) == 2
+    write("other.yaml", RIG.replace("600", "500"))
+    right = right.replace("rig.yaml", "other.yaml")
+    settings_file.write_text(GRIPPER + right + "profiles: objects\n")
+    (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
+    assert said == (
+        "own.yaml:1: grippers: rig.yaml and other.yaml differ, both named rig"
+    )

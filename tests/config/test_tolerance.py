@@ -7,9 +7,8 @@ from typing import ClassVar
 import pytest
 
 from gripperd.config import load_model
-from gripperd.errors import InputError
-from gripperd.model import Muscle, MuscleState
-from gripperd.model.real import Real
+from gripperd.model.kinds import InMuscle
+from gripperd.model.parameter import amplitude, shape
 
 Write = Callable[[str, str], Path]
 Refusal = Callable[[Callable[[Path], object], Path], list[str]]
@@ -29,27 +28,19 @@ effects: {effects}
 
 
 @dataclass(frozen=True)
-class Creep:
+class Creep(InMuscle):
     """An effect with numbers of its own; the file cannot know them beforehand."""
 
     name: ClassVar[str] = "creep"
-    amplitude: float
-    rate: float = 1.0
-    cycles: int = 1
+    needs: ClassVar[frozenset[str]] = frozenset()
+    shows: ClassVar[str] = ""
+    confused_with: ClassVar[tuple[str, ...]] = ()
+    remedy: ClassVar[str] = ""
+    weight: int
+    amplitude: float = amplitude(unit="N", scale=1.0, low=0.0, high=500.0)
+    rate: float = shape(unit="ms", starts=(1.0,), low=0.0041, high=2.0)
+    slope: float = shape(unit="N_per_mm", starts=(0.0,), low=-1e3, high=1e3)
     value: float = 0.0
-
-    def __post_init__(self) -> None:
-        if self.amplitude < 0:
-            message = f"amplitude {self.amplitude:g} N is below 0 N"
-            raise InputError(message)
-
-    def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        return -self.amplitude + 0 * at.contraction
-
-    def kinks(
-        self, contraction: Real, diameter_ratio: Real, muscle: Muscle
-    ) -> tuple[Real, ...]:
-        return ()
 
 
 load = partial(load_model, effects={"creep": Creep})
@@ -68,19 +59,20 @@ def test_any_number_may_carry_a_tolerance(write: Write) -> None:
             text(
                 diameter="{value: 10, tolerance: 0.2}",
                 pressure="[{value: 2, tolerance: 1}, {value: 600, tolerance: 5}]",
-                effects="[{name: creep, amplitude_N: {value: 3, tolerance: 1}}]",
+                effects="[{name: creep, weight: 1,"
+                " rate_ms: {value: 30, tolerance: 5}}]",
             ),
         )
     )
     assert model.static.muscle.diameter == 0.010
     assert model.regulator is not None
     assert model.regulator.pressure_low == 2e3
-    assert model.static.effects == (Creep(amplitude=3.0),)
+    assert model.static.effects == (Creep(1, rate=0.03),)
     assert model.tolerances == {
         "muscle.diameter": pytest.approx(0.2e-3),
         "valve.pressure_low": 1e3,
         "valve.pressure_high": 5e3,
-        "effects.creep.amplitude": 1.0,
+        "effects.creep.rate": 5e-3,
     }
 
 
@@ -133,10 +125,11 @@ def test_one_sigma_must_stay_possible(
 def test_one_sigma_of_an_effect_must_stay_possible(
     write: Write, refusal: Refusal
 ) -> None:
-    effects = "[{name: creep, amplitude_N: {value: 3, tolerance: 4}}]"
+    effects = "[{name: creep, weight: 1, amplitude_N: {value: 3, tolerance: 4}}]"
     said = refusal(load, write("m.yaml", text(effects=effects)))
     assert said == [
-        "m.yaml:10: effects[0]: minus its tolerance, amplitude -1 N is below 0 N"
+        "m.yaml:10: effects[0].amplitude_N: minus its tolerance, -1 N is outside 0 to"
+        " 500 N, the physical bounds of creep"
     ]
 
 
@@ -154,43 +147,65 @@ def test_text_has_no_tolerance(write: Write, refusal: Refusal) -> None:
         ("[7]", ["effects[0]: 7 is not an effect; there are: creep"]),
         ("[{}]", ["effects[0]: an empty value is not an effect; there are: creep"]),
         ("creep", ['effects: "creep" is not a list of effects']),
-        ("[creep]", ["effects[0].amplitude: is missing"]),
+        ("[creep]", ["effects[0].weight: is missing"]),
         (
-            "[{name: creep, amplitude_N: 3, ampitude_N: 3}]",
+            "[{name: creep, weight: 1, ampitude_N: 3}]",
             [
                 "effects[0].ampitude_N: is not a parameter of creep;"
-                ' did you mean "amplitude"?'
+                ' did you mean "amplitude_N"?'
             ],
         ),
         (
-            "[{name: creep, amplitude_N: 3, amplitude_mm: 3}]",
-            ["effects[0].amplitude_mm: says again what amplitude_N says"],
+            "[{name: creep, weight: 1, amplitude_mm: 3}]",
+            [
+                "effects[0].amplitude_mm: is not the unit of amplitude of creep;"
+                " write amplitude_N"
+            ],
         ),
         (
-            "[{name: creep, amplitude_N: '3'}]",
+            "[{name: creep, weight: 1, amplitude: 3}]",
+            [
+                "effects[0].amplitude: is not the unit of amplitude of creep;"
+                " write amplitude_N"
+            ],
+        ),
+        (
+            "[{name: creep, weight: 1, amplitude_N: '3'}]",
             ['effects[0].amplitude_N: "3" is not a number (N); write 3'],
         ),
         (
-            "[{name: creep, amplitude_N: true}]",
+            "[{name: creep, weight: 1, amplitude_N: true}]",
             ["effects[0].amplitude_N: true is not a number (N)"],
         ),
         (
-            "[{name: creep, amplitude_N: 3, cycles: 1.5}]",
-            ["effects[0].cycles: 1.5 is not a whole number"],
+            "[{name: creep, weight: 1.5}]",
+            ["effects[0].weight: 1.5 is not a whole number"],
         ),
         (
-            "[{name: creep, amplitude_N: -1}]",
-            ["effects[0]: amplitude -1 N is below 0 N"],
+            "[{name: creep, weight: 1, amplitude_N: -1, rate_ms: 2001}]",
+            [
+                "effects[0].amplitude_N: -1 N is outside 0 to 500 N, the physical"
+                " bounds of creep",
+                "effects[0].rate_ms: 2001 ms is outside 4.1 to 2000 ms, the physical"
+                " bounds of creep",
+            ],
         ),
         (
-            "[{name: creep, amplitude_N: 3}, {name: creep, amplitude_N: 4}]",
+            "[{name: creep, weight: 1, slope_N_per_mm: 2}]",
+            [
+                "effects[0].slope_N_per_mm: 2 N/mm is outside -1 to 1 N/mm, the"
+                " physical bounds of creep"
+            ],
+        ),
+        (
+            "[{name: creep, weight: 1}, {name: creep, weight: 2}]",
             ["effects[1]: creep is listed twice"],
         ),
         (
-            "[crep, {name: creep, amplitude_N: x}]",
+            "[crep, {name: creep, weight: x}]",
             [
                 'effects[0]: "crep" is not an effect; did you mean "creep"?',
-                'effects[1].amplitude_N: "x" is not a number (N)',
+                'effects[1].weight: "x" is not a whole number',
             ],
         ),
     ],
@@ -203,6 +218,14 @@ def test_an_effect_that_cannot_be_built_is_refused(
 
 
 def test_the_numbers_of_an_effect_take_their_unit_from_the_key(write: Write) -> None:
-    effects = "[{name: creep, amplitude_N: 3, rate_ms: 250, cycles: 4, value: 7}]"
+    effects = "[{name: creep, amplitude_N: 3, rate_ms: 250, weight: 4, value: 7}]"
     (creep,) = load(write("m.yaml", text(effects=effects))).static.effects
-    assert creep == Creep(amplitude=3.0, rate=0.25, cycles=4, value=7.0)
+    assert creep == Creep(4, amplitude=3.0, rate=0.25, value=7.0)
+
+
+def test_a_number_may_lie_on_its_bound_whatever_the_rounding_to_si(
+    write: Write,
+) -> None:
+    effects = "[{name: creep, weight: 1, amplitude_N: 500, rate_ms: 4.1}]"
+    (creep,) = load(write("m.yaml", text(effects=effects))).static.effects
+    assert creep == Creep(1, amplitude=500.0, rate=4.1 * 1e-3)

@@ -1,0 +1,177 @@
+"""A model with what a diagnosis named, and the proof that it is the better one.
+
+The effects were fitted together with the constants of the model, so both are written:
+an effect beside constants of another fit would be off by what the two share. What
+belongs to the rig of the recording (small zeros and delays of its sensors) stays out,
+and the gap is judged again without it: the numbers of a version are its own.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from gripperd.config import ModelFile, Provenance
+from gripperd.config.lineage import Gap
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.gap import Gap as Judged
+from gripperd.diagnose.gap import gaps
+from gripperd.diagnose.key import (
+    CONSTANTS,
+    Key,
+    key_of_constant,
+    keys_of,
+    public,
+    rounded,
+)
+from gripperd.diagnose.named import Estimate, Named
+from gripperd.diagnose.problem import Point
+from gripperd.diagnose.statement import summary
+from gripperd.errors import Refused
+from gripperd.model import StaticMuscle
+from gripperd.model.effect import Effect, acts_in_muscle
+from gripperd.model.parameter import parameters
+from gripperd.store.origin import fitted_constants, is_owned, origin
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Part = TypeVar("Part", bound="DataclassInstance")
+
+
+@dataclass(frozen=True, slots=True)
+class Improvement:
+    """A better model, and where it comes from."""
+
+    model: ModelFile
+    provenance: Provenance
+
+
+def improvement(model: ModelFile, diagnosis: Diagnosis, program: str) -> Improvement:
+    """Give the model with everything a diagnosis named.
+
+    Parameters
+    ----------
+    model
+        The model that was diagnosed.
+    diagnosis
+        What was found.
+    program
+        Version of the program.
+
+    Raises
+    ------
+    Refused
+        Nothing was named, a model file has no place for it, or data that took no part
+        in the fit do not confirm it.
+    """
+    _check_named(diagnosis)
+    point = _kept(diagnosis)
+    gap = _confirmed(diagnosis, point)
+    found = diagnosis.found.problem.explanation(point)
+    effects = _tidy_effects(found.effects, diagnosis.named)
+    better = replace(
+        model,
+        static=StaticMuscle(
+            _tidy(found.muscle, _keys("muscle")), tuple(filter(acts_in_muscle, effects))
+        ),
+        regulator=found.regulator and _tidy(found.regulator, _keys("valve")),
+        linkage=found.linkage and _tidy(found.linkage, _keys("gripper")),
+        effects=tuple(each for each in effects if not acts_in_muscle(each)),
+        tolerances={**model.tolerances, **dict(_tolerances(diagnosis))},
+        lineage=None,
+    )
+    return Improvement(better, origin(diagnosis, gap, program))
+
+
+def _keys(owner: str) -> dict[str, Key]:
+    """Keys of the constants of one part of a model file, by their names inside."""
+    paths = (path.partition(".") for path in CONSTANTS)
+    return {
+        name: CONSTANTS[f"{part}.{name}"] for part, _, name in paths if part == owner
+    }
+
+
+def _tidy(part: Part, keys: Mapping[str, Key]) -> Part:
+    """Round the numbers of a part."""
+    tidy = {name: key.tidy(getattr(part, name)) for name, key in keys.items()}
+    return replace(part, **tidy)
+
+
+def _tidy_effects(
+    effects: Iterable[Effect], entries: Iterable[Named]
+) -> tuple[Effect, ...]:
+    keys = {entry.name: keys_of(entry) for entry in entries}
+    return tuple(_tidy(each, keys.get(each.name, {})) for each in effects)
+
+
+def _check_named(diagnosis: Diagnosis) -> None:
+    if diagnosis.verdict is not Verdict.NAMED:
+        said = summary(diagnosis)
+        message = f"nothing to apply, the verdict is {diagnosis.verdict}: {said}"
+        raise Refused(message, code="not-named")
+    for entry in diagnosis.named:
+        if entry.path is not None and entry.path not in CONSTANTS:
+            message = f"{public(entry.name)} has no place in a model file"
+            raise Refused(message, code="not-in-model")
+
+
+def _kept(diagnosis: Diagnosis) -> Point:
+    """What was found without what belongs to the rig of the recording."""
+    point = diagnosis.explained
+    owned = [is_owned(one) for one in diagnosis.found.problem.constants]
+    return replace(point, shifts=np.where(owned, point.shifts, 0.0))
+
+
+def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:
+    """Gap of a point on data that took no part in fitting it."""
+    split, signal = diagnosis.split, diagnosis.main
+    points = (diagnosis.nominal, diagnosis.recalibrated, point)
+    draws = np.random.default_rng(diagnosis.seed)
+    judged = gaps(split.test, points, split.train.noises, draws)
+    if signal is None or signal not in judged:
+        message = "nothing to apply: no data were left out to confirm it on"
+        raise Refused(message, code="not-confirmed")
+    gap, column = judged[signal], BY_QUANTITY[signal.value]
+    if not _shrinks(gap):
+        sizes = (gap.before, gap.recalibrated, gap.after)
+        before, recalibrated, after = (f"{one / column.scale:.3g}" for one in sizes)
+        message = (
+            f"not applied: on data that took no part the {signal.value} would be off by"
+            f" {after} {column.unit}; by {before} {column.unit} as it is, by"
+            f" {recalibrated} {column.unit} with better constants alone"
+        )
+        raise Refused(message, code="not-confirmed")
+    return Gap(
+        signal=column.name,
+        unit=column.unit,
+        rmse_before=rounded(gap.before / column.scale),
+        rmse_recalibrated=rounded(gap.recalibrated / column.scale),
+        rmse_after=rounded(gap.after / column.scale),
+        noise_floor=rounded(gap.noise_floor / column.scale),
+    )
+
+
+def _shrinks(gap: Judged) -> bool:
+    """Whether it shrinks, and not by recalibration alone that would do better."""
+    return gap.after < gap.before and gap.ci95_after[0] <= gap.recalibrated
+
+
+def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
+    """One sigma of what was fitted, where one sigma to either side is possible."""
+    for constant, std in fitted_constants(diagnosis):
+        yield constant.path, key_of_constant(constant.path).tidy(std)
+    for entry in diagnosis.named:
+        known = parameters(entry.effect) if entry.effect else {}
+        keys = keys_of(entry)
+        for name in known.keys() & entry.parameters.keys():
+            one = entry.parameters[name]
+            if one.std > 0 and _is_inside(one, known[name].low, known[name].high):
+                yield f"effects.{entry.name}.{name}", keys[name].tidy(one.std)
+
+
+def _is_inside(one: Estimate, low: float, high: float) -> bool:
+    return low <= one.value - one.std and one.value + one.std <= high

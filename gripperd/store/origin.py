@@ -1,0 +1,122 @@
+"""What a version that a diagnosis made says of its making."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from gripperd.config import Provenance
+from gripperd.config.lineage import Added, Covariance, Gap, Recorded
+from gripperd.diagnose.candidates import WRONG
+from gripperd.diagnose.constants import Constant
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.key import key_of_constant, keys_of, public, rounded
+from gripperd.diagnose.named import Named
+
+OWNERS = frozenset({"muscle", "valve", "gripper"})
+"""Parts of a model file that have constants."""
+
+
+def is_owned(constant: Constant) -> bool:
+    """Whether a constant of a fit has a place in a model file."""
+    return constant.path.partition(".")[0] in OWNERS
+
+
+def origin(diagnosis: Diagnosis, gap: Gap, program: str) -> Provenance:
+    """Write down what a version is made of.
+
+    Parameters
+    ----------
+    diagnosis
+        That named what is added.
+    gap
+        Of the version, on data that took no part in fitting it.
+    program
+        Version of the program.
+    """
+    recording = diagnosis.recording
+    return Provenance(
+        program=program,
+        recording=Recorded(name=recording.name, sha256=recording.digest),
+        seed=diagnosis.seed,
+        effects=(*map(_added, diagnosis.named), *_recalibrated(diagnosis)),
+        covariance=_covariance(diagnosis),
+        gap=gap,
+        heldout_runs=diagnosis.held_out,
+    )
+
+
+def _added(entry: Named) -> Added:
+    keys = keys_of(entry)
+    return Added(
+        name=public(entry.name),
+        parameters={
+            keys[name].text: rounded(one.value / keys[name].factor)
+            for name, one in entry.parameters.items()
+        },
+        std={
+            keys[name].text: rounded(one.std / keys[name].factor)
+            for name, one in entry.parameters.items()
+        },
+    )
+
+
+def _recalibrated(diagnosis: Diagnosis) -> Iterator[Added]:
+    """Constants that moved by more than their tolerance without being called wrong."""
+    point = diagnosis.explained
+    constants = diagnosis.found.problem.constants
+    for constant, std in fitted_constants(diagnosis):
+        index = constants.index(constant)
+        shift = float(point.shifts[index])
+        if index in point.freed or abs(shift) <= 1:
+            continue
+        key = key_of_constant(constant.path)
+        value = (constant.nominal + shift * constant.sigma) / key.factor
+        yield Added(
+            name=public(f"{WRONG}{constant.path}"),
+            parameters={key.text: rounded(value)},
+            std={key.text: rounded(std / key.factor)},
+        )
+
+
+def fitted_constants(diagnosis: Diagnosis) -> Iterator[tuple[Constant, float]]:
+    """Constants with a place in a model file, and their standard deviations. [SI]."""
+    point, fit = diagnosis.explained, diagnosis.contest.best.fit
+    stds = np.sqrt(np.diag(fit.covariance)[: point.shifts.size]) * point.widths
+    constants = diagnosis.found.problem.constants
+    for constant, std in zip(constants, stds.tolist(), strict=True):
+        if is_owned(constant):
+            yield constant, std * constant.sigma
+
+
+def _covariance(diagnosis: Diagnosis) -> Covariance | None:
+    """Covariance of everything named, in the units of its keys."""
+    names, places, scales = _fitted(diagnosis)
+    if not names:
+        return None
+    matrix = diagnosis.contest.best.fit.covariance[np.ix_(places, places)]
+    scaled = matrix * np.outer(scales, scales)
+    rows: Sequence[Sequence[float]] = scaled.tolist()
+    return Covariance(
+        parameters=tuple(names),
+        matrix=tuple(tuple(map(rounded, row)) for row in rows),
+    )
+
+
+def _fitted(diagnosis: Diagnosis) -> tuple[list[str], list[int], list[float]]:
+    """Names, rows in the covariance of the fit, and units of everything named."""
+    fit, point = diagnosis.contest.best.fit, diagnosis.explained
+    constants = diagnosis.found.problem.constants
+    names, places, scales = [], [], []
+    for index in sorted(point.freed):
+        key = key_of_constant(constants[index].path)
+        names.append(public(f"{WRONG}{constants[index].path}"))
+        places.append(index)
+        width = float(point.widths[index]) * constants[index].sigma
+        scales.append(width / key.factor)
+    keys = {one.name: keys_of(one) for one in diagnosis.named if one.effect}
+    for place, fitted in enumerate(fit.coordinates, start=point.shifts.size):
+        key = keys[fitted.effect][fitted.parameter]
+        names.append(f"{fitted.effect}.{key.text}")
+        places.append(place)
+        scales.append(fitted.unit / key.factor)
+    return names, places, scales

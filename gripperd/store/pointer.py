@@ -1,0 +1,95 @@
+"""Which version is active, and which ones were before it."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fcntl import LOCK_EX, flock
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from gripperd.config import Complaint
+from gripperd.config.document import read_document
+from gripperd.config.durable import replace_file
+from gripperd.config.section import Section
+from gripperd.config.text import yaml_text
+from gripperd.config.validation import validated
+from gripperd.errors import ConfigError, Refused
+
+Number = Annotated[int, Field(ge=0)]
+
+
+class PointerSection(Section):
+    """The file."""
+
+    active: Number
+    before: Annotated[tuple[Number, ...], Field(strict=False)] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Pointer:
+    """The active version; it starts at 0, the configured model."""
+
+    active: int = 0
+    before: tuple[int, ...] = ()
+    """Those to roll back to, the last one first to come."""
+
+    def to(self, version: int) -> "Pointer":
+        """Point to another version."""
+        if version == self.active:
+            return self
+        return Pointer(version, (*self.before, self.active))
+
+    def back(self) -> "Pointer":
+        """Point to the version that was active before.
+
+        Raises
+        ------
+        Refused
+            There was none.
+        """
+        if not self.before:
+            message = f"version {self.active} was the first; there is none before it"
+            raise Refused(message, code="nothing-before")
+        return Pointer(self.before[-1], self.before[:-1])
+
+
+def read_pointer(path: Path) -> Pointer:
+    """Read which version is active; 0 where none ever was activated.
+
+    Raises
+    ------
+    ConfigError
+        The file is damaged; nobody can say which one is active.
+    """
+    if not path.exists():
+        return Pointer()
+    try:
+        section = validated(PointerSection, read_document(path))
+    except ConfigError as damaged:
+        hint = "nobody can say which version is active; remove the file for version 0"
+        complaint = Complaint(hint, source=str(path))
+        raise ConfigError(*damaged.complaints, complaint) from None
+    return Pointer(section.active, section.before)
+
+
+def write_pointer(pointer: Pointer, path: Path) -> None:
+    """Make another version the active one.
+
+    Raises
+    ------
+    OSError
+        The one before is still active.
+    """
+    document = {"active": pointer.active, "before": list(pointer.before)}
+    replace_file(path, yaml_text(document))
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Be the only one who changes a folder, among processes and threads."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / ".lock").open("w") as lock:
+        flock(lock, LOCK_EX)
+        yield

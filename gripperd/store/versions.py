@@ -1,0 +1,220 @@
+"""Versions of one model: numbered files that never change, and which one is active.
+
+Version 0 is the configured model file itself, named ``reference`` for example. Version
+3 is the file ``3.yaml``, and the model in it is named ``reference-3``. Both spellings
+name a version, and so does :data:`ACTIVE`.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+from gripperd.config import Complaint, ModelFile, load_model
+from gripperd.config.complaint import did_you_mean, gathering
+from gripperd.config.durable import create_file
+from gripperd.config.lineage import Lineage, Provenance
+from gripperd.config.model_text import model_text
+from gripperd.errors import ConfigError, NotFound, Refused
+from gripperd.store.pointer import Pointer, locked, read_pointer, write_pointer
+from gripperd.store.sealed import check_seal, sealed
+
+ACTIVE = "active"
+"""Stands for whichever version is active."""
+
+
+@dataclass(frozen=True, slots=True)
+class Version:
+    """One version of a model."""
+
+    number: int
+    """0: the configured model."""
+    model: ModelFile
+    """The model, named after its version; its lineage is None for version 0."""
+
+    @property
+    def name(self) -> str:
+        """Name of the model, such as ``reference-3``."""
+        return self.model.name
+
+
+@dataclass(frozen=True, slots=True)
+class Shelf:
+    """Every version that can be read."""
+
+    versions: tuple[Version, ...]
+    """From 0 up."""
+    active: int
+    complaints: tuple[str, ...]
+    """What is wrong with those that cannot be read."""
+
+
+class Versions:
+    """The versions of one model.
+
+    Parameters
+    ----------
+    folder
+        Where they are kept.
+    base
+        The configured model, version 0.
+    """
+
+    def __init__(self, folder: Path, base: ModelFile) -> None:
+        self._folder = folder
+        self._base = base
+
+    @property
+    def active(self) -> int:
+        """Number of the active version.
+
+        Raises
+        ------
+        ConfigError
+            The file that says so is damaged.
+        """
+        return self._read_pointer().active
+
+    def add(
+        self,
+        model: ModelFile,
+        *,
+        parent: int,
+        created_at: datetime,
+        provenance: Provenance,
+    ) -> Version:
+        """Keep a model as the next version; the active one stays active.
+
+        Returns
+        -------
+        The version as its file has it, which is what every later reader gets. A number
+        that the unit of its key cannot say exactly differs in the last bit.
+
+        Raises
+        ------
+        NotFound
+            There is no such parent.
+        ConfigError
+            The model is one that could not be read again; nothing was kept.
+        Refused
+            The disk is full or cannot be written; nothing was kept.
+        """
+        self.get(parent)
+        with self._changing():
+            number = max(self._numbers(), default=0) + 1
+            lineage = Lineage(
+                version=number,
+                parent=parent,
+                created_at=created_at,
+                provenance=provenance,
+            )
+            name = self._name(number)
+            text = model_text(replace(model, name=name, lineage=lineage))
+            create_file(self._file(number), sealed(text), check=load_model)
+        return self.get(number)
+
+    def all(self) -> Shelf:
+        """Every version; one broken file costs one version."""
+        complaints: list[str] = []
+        versions: list[Version] = []
+        for number in (0, *sorted(self._numbers())):
+            with gathering(complaints):
+                versions.append(self.get(number))
+        return Shelf(tuple(versions), self.active, tuple(complaints))
+
+    def get(self, which: int | str = ACTIVE) -> Version:
+        """One version, by number, name or :data:`ACTIVE`.
+
+        Raises
+        ------
+        NotFound
+            There is none.
+        ConfigError
+            Its file is damaged.
+        """
+        number = self._number(which)
+        if number == 0:
+            return Version(0, self._base)
+        path = self._file(number)
+        check_seal(path)
+        model = load_model(path)
+        if model.name != self._name(number) or model.lineage is None:
+            detail = f'"{model.name}" is not version {number} of {self._base.name}'
+            raise ConfigError(Complaint(detail, source=str(path), path=("name",)))
+        return Version(number, model)
+
+    def activate(self, which: int | str) -> Version:
+        """Make a version the active one.
+
+        Raises
+        ------
+        NotFound
+            There is none.
+        ConfigError
+            Its file is damaged, or it has no valve or gripper.
+        Refused
+            The disk cannot be written; the one before is still active.
+        """
+        return self._point(lambda before: before.to(self._number(which)))
+
+    def rollback(self) -> Version:
+        """Make the version active that was so before; again, the one before that.
+
+        Raises
+        ------
+        Refused
+            There was none before, or the disk cannot be written.
+        ConfigError
+            The file of the one before is damaged.
+        """
+        return self._point(Pointer.back)
+
+    def _point(self, move: Callable[[Pointer], Pointer]) -> Version:
+        with self._changing():
+            pointer = move(self._read_pointer())
+            version = self.get(pointer.active)
+            version.model.chain()
+            write_pointer(pointer, self._pointer)
+            return version
+
+    def _number(self, which: int | str) -> int:
+        if which == ACTIVE:
+            which = self.active
+        known: dict[int | str, int] = {}
+        for number in (0, *self._numbers()):
+            known |= {number: number, str(number): number, self._name(number): number}
+        if which not in known:
+            hint = did_you_mean(
+                str(which), {self._name(each) for each in known.values()}
+            )
+            message = f"{self._base.name} has no version {which!r}; {hint}"
+            raise NotFound(message, key="version")
+        return known[which]
+
+    def _numbers(self) -> Iterator[int]:
+        for path in self._folder.glob("[1-9]*.yaml"):
+            if path.stem.isdecimal():
+                yield int(path.stem)
+
+    def _name(self, number: int) -> str:
+        return f"{self._base.name}-{number}" if number else self._base.name
+
+    def _file(self, number: int) -> Path:
+        return self._folder / f"{number}.yaml"
+
+    @property
+    def _pointer(self) -> Path:
+        return self._folder / f"{ACTIVE}.yaml"
+
+    def _read_pointer(self) -> Pointer:
+        return read_pointer(self._pointer)
+
+    @contextmanager
+    def _changing(self) -> Iterator[None]:
+        try:
+            with locked(self._folder):
+                yield
+        except OSError as error:
+            message = f"{self._folder}: nothing was changed: {error.strerror}"
+            raise Refused(message, code="storage-failed") from error

@@ -1,0 +1,138 @@
+from dataclasses import replace
+from datetime import UTC, datetime
+from math import sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripperd.config import ModelFile, load_model
+from gripperd.demo.rig import Hidden, Rig
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.named import Estimate
+from gripperd.effects.creep import Creep
+from gripperd.errors import Refused
+from gripperd.store import Version, Versions
+from gripperd.store.improvement import improvement
+from tests.demonstration import SEED, example
+
+NOON = datetime(2026, 1, 31, 12, tzinfo=UTC)
+
+Found = tuple[ModelFile, Diagnosis]
+
+
+@pytest.fixture(scope="module")
+def threshold() -> Found:
+    return example(Hidden.THRESHOLD)
+
+
+@pytest.fixture(scope="module")
+def creep() -> Found:
+    return example(Hidden.CREEP)
+
+
+def kept(found: Found, folder: Path) -> Version:
+    model, diagnosis = found
+    better = improvement(model, diagnosis, "0.1.0")
+    return Versions(folder, model).add(
+        better.model, parent=0, created_at=NOON, provenance=better.provenance
+    )
+
+
+def test_the_version_pulls_like_the_rig_and_the_drawing_does_not(
+    threshold: Found, tmp_path: Path
+) -> None:
+    rig = Rig.built(Hidden.THRESHOLD, np.random.default_rng(SEED))
+    pressure = np.array([150e3, 300e3, 450e3])
+    contraction = np.array([0.03, 0.08, 0.12])
+    truth = rig.force(np.arange(3.0), pressure, contraction)
+    before = np.asarray(threshold[0].static.force(pressure, contraction))
+    version = kept(threshold, tmp_path)
+    after = np.asarray(
+        load_model(tmp_path / "1.yaml").static.force(pressure, contraction)
+    )
+    assert np.abs(before - truth).max() > 20
+    assert np.abs(after - truth).max() < 4
+    assert version.model.static.effects[0].name == "threshold_pressure"
+
+
+def test_a_version_says_where_it_comes_from(creep: Found, tmp_path: Path) -> None:
+    lineage = kept(creep, tmp_path).model.lineage
+    assert lineage is not None
+    made = lineage.provenance
+    assert (made.program, made.seed) == ("0.1.0", SEED)
+    assert made.recording.sha256 == creep[1].recording.digest
+    assert made.effects[0].name == "creep"
+    assert "time_s" in made.effects[0].parameters
+    assert made.heldout_runs == creep[1].held_out
+    gap = made.gap
+    assert gap is not None
+    assert (gap.signal, gap.unit) == ("force_N", "N")
+    assert gap.rmse_after < gap.rmse_recalibrated < gap.rmse_before
+
+
+def test_the_covariance_agrees_with_the_standard_deviations(
+    creep: Found, tmp_path: Path
+) -> None:
+    lineage = kept(creep, tmp_path).model.lineage
+    assert lineage is not None
+    made = lineage.provenance
+    assert made.covariance is not None
+    (added,) = [one for one in made.effects if one.name == "creep"]
+    for index, name in enumerate(made.covariance.parameters):
+        variance = made.covariance.matrix[index][index]
+        std = added.std[name.removeprefix("creep.")]
+        assert sqrt(variance) == pytest.approx(std, rel=1e-4)
+
+
+def test_a_fitted_parameter_is_known_to_within_its_deviation(
+    creep: Found, tmp_path: Path
+) -> None:
+    tolerances = kept(creep, tmp_path).model.tolerances
+    (entry,) = creep[1].named
+    fitted = tolerances["effects.creep.time"]
+    assert fitted == pytest.approx(entry.parameters["time"].std, rel=1e-4)
+
+
+def test_no_tolerance_reaches_past_a_bound(creep: Found) -> None:
+    model, diagnosis = creep
+    (entry,) = diagnosis.named
+    wide = {**entry.parameters, "time": Estimate(0.3, 1.0)}
+    doubtful = replace(diagnosis, named=(replace(entry, parameters=wide),))
+    better = improvement(model, doubtful, "0.1.0")
+    assert "effects.creep.time" not in better.model.tolerances
+
+
+@pytest.mark.parametrize(
+    "verdict", [Verdict.AMBIGUOUS, Verdict.UNEXPLAINED, Verdict.NONE]
+)
+def test_only_what_is_named_is_added(creep: Found, verdict: Verdict) -> None:
+    model, diagnosis = creep
+    with pytest.raises(Refused, match=f"the verdict is {verdict}") as refused:
+        improvement(model, replace(diagnosis, verdict=verdict), "0.1.0")
+    assert refused.value.code == "not-named"
+
+
+def test_what_held_out_data_do_not_confirm_is_refused(creep: Found) -> None:
+    model, diagnosis = creep
+    best = diagnosis.contest.best
+    too_much = best.fit.point.with_effect(Creep(fast=0.5, medium=0.5, slow=0.5))
+    worse = replace(best, fit=replace(best.fit, point=too_much))
+    contest = replace(diagnosis.contest, best=worse)
+    with pytest.raises(Refused, match="on data that took no part") as refused:
+        improvement(model, replace(diagnosis, contest=contest), "0.1.0")
+    assert refused.value.code == "not-confirmed"
+
+
+def test_what_no_model_file_can_say_is_refused(creep: Found) -> None:
+    model, diagnosis = creep
+    late = replace(
+        diagnosis.named[0],
+        name="parameter:skew.pressure",
+        effect=None,
+        path="skew.pressure",
+        parameters={"pressure": Estimate(0.02, 0.001)},
+    )
+    with pytest.raises(Refused, match=r"parameter:skew\.pressure_ms has no place"):
+        improvement(model, replace(diagnosis, named=(late,)), "0.1.0")

@@ -1,0 +1,202 @@
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from gripperd.config import ModelFile, load_model, shipped
+from gripperd.config.lineage import Provenance
+from gripperd.effects.creep import Creep
+from gripperd.effects.valve_lag import ValveLag
+from gripperd.errors import ConfigError, NotFound, Refused
+from gripperd.store import Version, Versions
+
+NOW = datetime(2026, 1, 31, 12, 0, tzinfo=UTC)
+
+
+def with_creep(model: ModelFile, slow: float = 0.03) -> ModelFile:
+    effects = (*model.static.effects, Creep(slow=slow))
+    return replace(model, static=replace(model.static, effects=effects))
+
+
+def add(
+    versions: Versions, provenance: Provenance, slow: float = 0.03, parent: int = 0
+) -> Version:
+    model = with_creep(versions.get(0).model, slow)
+    return versions.add(model, parent=parent, created_at=NOW, provenance=provenance)
+
+
+def test_without_versions_the_configured_model_is_active(versions: Versions) -> None:
+    assert versions.active == 0
+    assert versions.get() == Version(0, load_model(shipped("models/reference.yaml")))
+
+
+def test_a_version_is_kept_with_where_it_comes_from(
+    versions: Versions, provenance: Provenance
+) -> None:
+    first = add(versions, provenance)
+    second = add(versions, provenance, slow=0.04, parent=1)
+    assert [first.number, second.number] == [1, 2]
+    assert [first.name, second.name] == ["reference-1", "reference-2"]
+    assert versions.get(1) == first
+    assert Creep(slow=0.04) in versions.get("reference-2").model.static.effects
+    lineage = versions.get("2").model.lineage
+    assert lineage is not None
+    assert (lineage.parent, lineage.created_at) == (1, NOW)
+    assert lineage.provenance == provenance
+    assert versions.active == 0
+
+
+def test_an_effect_outside_the_muscle_is_kept_too(
+    versions: Versions, provenance: Provenance
+) -> None:
+    model = replace(versions.get(0).model, effects=(ValveLag(share=1.0, time=0.15),))
+    versions.add(model, parent=0, created_at=NOW, provenance=provenance)
+    assert versions.get(1).model.effects == (ValveLag(share=1.0, time=0.15),)
+
+
+def test_rollback_walks_back_through_what_was_active(
+    versions: Versions, provenance: Provenance
+) -> None:
+    for slow in (0.01, 0.02, 0.03):
+        add(versions, provenance, slow=slow)
+    for which in (1, "reference-3", 3, 2):
+        versions.activate(which)
+    assert versions.active == 2
+    walked = [versions.rollback().number for _ in range(3)]
+    assert walked == [3, 1, 0]
+    with pytest.raises(Refused, match="version 0 was the first") as refused:
+        versions.rollback()
+    assert refused.value.code == "nothing-before"
+    assert versions.active == 0
+
+
+@pytest.mark.parametrize("which", [4, "reference-4", "-1", "", "../1", "1.yaml"])
+def test_a_version_that_is_not_there_is_told(
+    versions: Versions, provenance: Provenance, which: int | str
+) -> None:
+    add(versions, provenance)
+    with pytest.raises(NotFound, match="reference has no version"):
+        versions.get(which)
+    with pytest.raises(NotFound):
+        versions.activate(which)
+    assert versions.active == 0
+
+
+def test_a_model_that_could_not_be_read_again_is_not_kept(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    with pytest.raises(ConfigError, match=r"slow: 0\.6 is outside -0\.15 to 0\.15"):
+        add(versions, provenance, slow=0.6)
+    assert list(tmp_path.rglob("*.yaml")) == []
+    assert list(tmp_path.rglob("*.draft")) == []
+
+
+def test_a_version_that_lost_or_changed_a_byte_is_refused_and_harms_no_other(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    for slow in (0.01, 0.02):
+        add(versions, provenance, slow=slow)
+    file = tmp_path / "models/reference/1.yaml"
+    whole = file.read_bytes()
+    for end in range(0, len(whole), 7):
+        file.write_bytes(whole[:end])
+        with pytest.raises(ConfigError, match="is not as it was written"):
+            versions.get(1)
+    file.write_bytes(
+        whole.replace(b"diameter_mm: {value: 20.0", b"diameter_mm: {value: 21.0")
+    )
+    shelf = versions.all()
+    assert [version.number for version in shelf.versions] == [0, 2]
+    (said,) = shelf.complaints
+    assert said.startswith(f"{file}: is not as it was written")
+    with pytest.raises(ConfigError):
+        versions.activate(1)
+
+
+def test_a_damaged_version_can_be_rolled_back(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    add(versions, provenance)
+    versions.activate(1)
+    (tmp_path / "models/reference/1.yaml").write_text("name: reference-1\n")
+    with pytest.raises(ConfigError):
+        versions.get()
+    assert versions.rollback().number == 0
+    assert versions.get().number == 0
+
+
+def test_a_version_put_in_the_place_of_another_is_refused(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    add(versions, provenance)
+    folder = tmp_path / "models/reference"
+    (folder / "2.yaml").write_bytes((folder / "1.yaml").read_bytes())
+    with pytest.raises(ConfigError, match='"reference-1" is not version 2'):
+        versions.get(2)
+
+
+@pytest.mark.parametrize("left", ["", "name: refer", "active: "])
+def test_what_a_power_cut_left_of_a_draft_is_no_version(
+    versions: Versions, provenance: Provenance, tmp_path: Path, left: str
+) -> None:
+    folder = tmp_path / "models/reference"
+    folder.mkdir(parents=True)
+    (folder / ".1.draft").write_text(left)
+    (folder / ".active.draft").write_text(left)
+    assert versions.all().versions == (versions.get(0),)
+    assert add(versions, provenance).number == 1
+    assert versions.activate(1).number == 1
+
+
+def test_a_damaged_pointer_says_how_to_go_on(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    add(versions, provenance)
+    pointer = tmp_path / "models/reference/active.yaml"
+    pointer.write_text("active: one\n")
+    with pytest.raises(ConfigError, match="remove the file for version 0"):
+        versions.get()
+    pointer.unlink()
+    assert versions.active == 0
+
+
+def test_a_bare_muscle_is_no_model_to_drive_by(
+    versions: Versions, provenance: Provenance
+) -> None:
+    model = replace(versions.get(0).model, linkage=None, tolerances={})
+    versions.add(model, parent=0, created_at=NOW, provenance=provenance)
+    with pytest.raises(ConfigError, match="gripper: is missing"):
+        versions.activate(1)
+    assert versions.active == 0
+
+
+def test_a_full_or_closed_disk_changes_nothing(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models/reference").write_text("a file where the folder should be")
+    with pytest.raises(Refused, match="nothing was changed"):
+        add(versions, provenance)
+
+
+def _add_some(folder: Path, provenance: Provenance) -> list[int]:
+    base = load_model(shipped("models/reference.yaml"))
+    versions = Versions(folder, base)
+    return [add(versions, provenance).number for _ in range(3)]
+
+
+def test_two_writers_at_once_lose_no_version(
+    tmp_path: Path, provenance: Provenance
+) -> None:
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(2, context) as pool:
+        adding = [pool.submit(_add_some, tmp_path, provenance) for _ in range(2)]
+        numbers = sorted(number for each in adding for number in each.result())
+    assert numbers == [1, 2, 3, 4, 5, 6]
+    base = load_model(shipped("models/reference.yaml"))
+    shelf = Versions(tmp_path, base).all()
+    assert [version.number for version in shelf.versions] == [0, 1, 2, 3, 4, 5, 6]
+    assert shelf.complaints == ()
