@@ -32,6 +32,7 @@ ConfigFile = Annotated[
         help="Configuration file; without one, the simulated bench.",
     ),
 ]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
 @app.callback(invoke_without_command=True)
@@ -53,7 +54,14 @@ def version(
 def main() -> NoReturn:
     """Run the command line."""
     # Imported here, so that each command registers itself.
-    from gripperd.cli import daemon, operate, physics  # noqa: F401
+    from gripperd.cli import (  # noqa: F401
+        daemon,
+        demonstrating,
+        diagnosing,
+        model,
+        operate,
+        physics,
+    )
 
     try:
         app()

@@ -37,8 +37,11 @@ def run(config: ConfigFile = None) -> None:
     """Run the daemon: control, service and, without hardware, the bench."""
     from gripperd.cli.run import run as run_daemon
     from gripperd.config import load_settings
+    from gripperd.store import with_active_models
 
     settings = load_settings(config)
+    # A damaged version is told before anything is started.
+    with_active_models(settings)
     _log_to_stderr()
     raise typer.Exit(run_daemon(settings, Console(highlight=False, soft_wrap=True)))
 
@@ -59,8 +62,9 @@ def control(config: ConfigFile = None, bench: Bench = None) -> None:
     """Run the control process alone."""
     from gripperd.cli import processes
     from gripperd.config import load_settings
+    from gripperd.store import with_active_models
 
-    settings = load_settings(config)
+    settings = with_active_models(load_settings(config))
     _log_to_stderr()
     processes.run_process(processes.control(settings, _host_and_port("--bench", bench)))
 
@@ -71,8 +75,9 @@ def service(config: ConfigFile = None, http: Http = None) -> None:
     from gripperd.cli import serving
     from gripperd.cli.processes import run_process
     from gripperd.config import KEYLESS, is_loopback, load_settings
+    from gripperd.store import with_active_models
 
-    settings = load_settings(config)
+    settings = with_active_models(load_settings(config))
     _log_to_stderr()
     address = _host_and_port("--http", http)
     if address is not None and not is_loopback(address[0]):
@@ -91,8 +96,9 @@ def check(
     """Check a configuration with everything it refers to; exit 78 if unusable."""
     from gripperd.cli.doubts import doubts
     from gripperd.config import load_settings
+    from gripperd.store import with_active_models
 
-    settings = load_settings(config)
+    settings = with_active_models(load_settings(config))
     models = {name: one.chain.name for name, one in settings.grippers.items()}
     warnings = list(doubts(settings))
     if as_json:

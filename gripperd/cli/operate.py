@@ -7,7 +7,7 @@ from urllib.parse import quote
 import httpx
 import typer
 
-from gripperd.cli.app import app
+from gripperd.cli.app import Json, app
 from gripperd.errors import BadReply, GripperdError, InputError, LinkLost
 
 Url = Annotated[
@@ -16,7 +16,7 @@ Url = Annotated[
 Name = Annotated[
     str | None, typer.Option("--gripper", "-g", help="Without one, the first.")
 ]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+
 
 DEFAULT_URL = "http://127.0.0.1:8765"
 MARGIN = 5.0

@@ -11,22 +11,29 @@ from rich.console import Console
 from rich.table import Table
 
 from gripperd import __version__
-from gripperd.cli.app import app
+from gripperd.cli.app import ConfigFile, Json, app
 from gripperd.errors import InputError
 from gripperd.units import KILO, MILLI
 
 if TYPE_CHECKING:
-    from gripperd.model import Regulator
+    from gripperd.model import Chain, Regulator
 
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Model = Annotated[
     Path | None,
     typer.Option("--model", help="Model file; without one, the reference rig."),
 ]
+OtherModel = Annotated[
+    Path | None,
+    typer.Option("--model", help="Model file, instead of the gripper's active one."),
+]
+GripperName = Annotated[
+    str | None,
+    typer.Option("--gripper", "-g", help="Whose model; without one, the first."),
+]
 
 
 @app.command()
-def predict(
+def predict(  # noqa: PLR0913  (its options)
     diameter: Annotated[float, typer.Option(help="Size of the object. [mm]")],
     current: Annotated[float | None, typer.Option(help="Valve current. [mA]")] = None,
     force: Annotated[
@@ -35,17 +42,18 @@ def predict(
     stiffness: Annotated[
         float | None, typer.Option(help="Of the object; without, rigid. [N/mm]")
     ] = None,
-    model: Model = None,
+    model: OtherModel = None,
+    config: ConfigFile = None,
+    gripper: GripperName = None,
     as_json: Json = False,
 ) -> None:
     """Predict the grip force at a current, or the current for a grip force."""
-    from gripperd.config import load_chain, reference_chain
     from gripperd.model import PressedObject
 
     if (current is None) == (force is None):
         message = "give either --current in mA or --force in N"
         raise InputError(message, key="--current")
-    chain = reference_chain() if model is None else load_chain(model)
+    chain = _chain(model, config, gripper)
     pressed = PressedObject(_above_zero("--diameter", diameter, "mm") * MILLI)
     if stiffness is not None:
         stiff = _above_zero("--stiffness", stiffness, "N/mm") * KILO
@@ -105,6 +113,15 @@ def reproduce(
         table.add_row(claim.statement, claim.verdict, claim.finding)
     Console().print(table)
     typer.echo(f"wrote {(folder / 'index.html').resolve().as_uri()}")
+
+
+def _chain(model: Path | None, config: Path | None, gripper: str | None) -> "Chain":
+    from gripperd.cli.versions import chosen
+    from gripperd.config import load_chain
+
+    if model is not None:
+        return load_chain(model)
+    return chosen(config, gripper).versions.get().model.chain()
 
 
 def _above_zero(name: str, value: float, unit: str) -> float:

@@ -1,10 +1,7 @@
 """Figures 6, 7 and 8 of the paper, drawn from the model."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from gripperd.effects.braid_friction import Form
 from gripperd.model import Direction
@@ -25,23 +22,12 @@ from gripperd.reproduce.paper import (
     HIGHEST_PRESSURE,
     Paper,
 )
+from gripperd.reproduce.picture import Picture
 from gripperd.units import MEGA
 
 PRESSURE_AXIS = "gauge pressure p [MPa]"
 FORCE_AXIS = "force F [N]"
 CONTRACTION_AXIS = "contraction h [-]"
-
-
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """A drawing with the words that go with it."""
-
-    name: str
-    title: str
-    caption: str
-    alt: str
-    """What it shows, for a reader who does not see it."""
-    drawing: Figure
 
 
 def figure_6(paper: Paper) -> Picture:

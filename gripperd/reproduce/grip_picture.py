@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from gripperd.model import Chain, PressedObject
 from gripperd.model.real import positive_part
 from gripperd.reproduce.drawing import BLUE, INK, MUTED, PAPER, canvas
-from gripperd.reproduce.figures import Picture
+from gripperd.reproduce.picture import Picture
 from gripperd.reproduce.samples import PAPER_CURRENT, Grasp, table_1
 from gripperd.units import MILLI
 

@@ -12,7 +12,7 @@ from gripperd.model import Chain
 from gripperd.reproduce import drawing
 from gripperd.reproduce.chapters import Chapter, Equation, Table
 from gripperd.reproduce.claims import Claim, Verdict
-from gripperd.reproduce.figures import Picture
+from gripperd.reproduce.picture import Picture
 from gripperd.reproduce.samples import PAPER_CURRENT, Grasp
 from gripperd.units import KILO, MILLI
 
@@ -45,7 +45,7 @@ def page(contents: Contents) -> str:
         chain=contents.chain,
         claims=contents.claims,
         score=[(verdict, counts[verdict]) for verdict in Verdict if counts[verdict]],
-        pictures=[_figure(picture, svg) for picture, svg in contents.pictures],
+        pictures=[picture.on_page(svg) for picture, svg in contents.pictures],
         chapters=[
             _chapter(number, chapter)
             for number, chapter in enumerate(contents.chapters, 1)
@@ -72,15 +72,6 @@ def subscripts(text: str) -> Markup:
     F<sub>s</sub> [N]
     """
     return Markup(re.sub(r"_(\w)", r"<sub>\1</sub>", str(escape(text))))
-
-
-def _figure(picture: Picture, svg: str) -> dict[str, str]:
-    return {
-        "name": picture.name,
-        "title": picture.title,
-        "caption": picture.caption,
-        "markup": Markup(drawing.inline(svg, picture.name, str(escape(picture.alt)))),
-    }
 
 
 def _chapter(number: int, chapter: Chapter) -> dict[str, object]:

@@ -12,12 +12,10 @@ from gripperd.errors import InputError
 from gripperd.model import Chain
 from gripperd.reproduce.chapters import chapters
 from gripperd.reproduce.claims import Claim, judge
+from gripperd.reproduce.extra import not_installed
 from gripperd.reproduce.paper import Paper
 from gripperd.reproduce.samples import PAPER_CURRENT, Grasp, table_1
 from gripperd.units import KILO, MILLI
-
-EXTRA = frozenset({"jinja2", "markupsafe", "matplotlib"})
-"""What the extra ``reproduce`` installs and the drawing below imports."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +48,7 @@ def reproduce(chain: Chain, folder: Path, *, version: str, made_at: datetime) ->
         from gripperd.reproduce import drawing, figures
         from gripperd.reproduce.page import Contents, page
     except ModuleNotFoundError as missing:
-        raise _not_installed(missing) from missing
+        raise not_installed(missing, "reproduce") from missing
     written: dict[str, bytes] = {}
     with drawing.styled():
         pictures = []
@@ -82,18 +80,10 @@ def draw_force_vs_size(chain: Chain, file: Path) -> None:
         from gripperd.reproduce import drawing
         from gripperd.reproduce.grip_picture import force_vs_size
     except ModuleNotFoundError as missing:
-        raise _not_installed(missing) from missing
+        raise not_installed(missing, "reproduce") from missing
     with drawing.styled():
         picture = drawing.svg(force_vs_size(chain).drawing)
     _write(file.parent, {file.name: picture.encode()})
-
-
-def _not_installed(missing: ModuleNotFoundError) -> Exception:
-    package = (missing.name or "").partition(".")[0]
-    if package not in EXTRA:
-        return missing
-    message = f"drawing needs {package}: pip install 'gripperd[reproduce]'"
-    return InputError(message)
 
 
 def _write(folder: Path, contents: Mapping[str, bytes]) -> tuple[Path, ...]:

@@ -9,9 +9,10 @@ from matplotlib.lines import Line2D
 
 from gripperd.model import Chain
 from gripperd.reproduce import drawing
-from gripperd.reproduce.figures import Picture, figure_6, figure_7, figure_8
+from gripperd.reproduce.figures import figure_6, figure_7, figure_8
 from gripperd.reproduce.grip_picture import force_vs_size
 from gripperd.reproduce.paper import Paper
+from gripperd.reproduce.picture import Picture
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,5 +1,5 @@
 import pytest
-from scipy.optimize import brentq  # type: ignore[import-untyped]
+from scipy.optimize import brentq
 
 from gripperd.effects.braid_friction import Form
 from gripperd.model import Chain, Direction

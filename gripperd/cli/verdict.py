@@ -1,0 +1,166 @@
+"""A diagnosis on a terminal."""
+
+from rich.console import Console, Group
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from gripperd.cli.model import PIPE_WIDTH
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.key import keys_of, public
+from gripperd.diagnose.statement import span, statement, summary
+from gripperd.diagnose.where import Finding
+from gripperd.model.effect import Signal
+
+COLOURS = {
+    Verdict.NAMED: "green",
+    Verdict.NONE: "green",
+    Verdict.AMBIGUOUS: "yellow",
+    Verdict.UNEXPLAINED: "yellow",
+    Verdict.UNUSABLE: "red",
+}
+REGION = {"time": "", "pressure": "", "contraction": "contraction ", "temperature": ""}
+"""What is told of a region, and the word before it where the unit does not say."""
+PLACES = 6
+"""Places told on a terminal; all are in the document."""
+
+
+def show(diagnosis: Diagnosis) -> None:
+    """Print the verdict and what it rests on."""
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = PIPE_WIDTH
+    colour = COLOURS[diagnosis.verdict]
+    console.print(
+        Text.assemble(
+            (f"{diagnosis.verdict.value}  ", f"bold {colour}"),
+            (summary(diagnosis), "bold"),
+        )
+    )
+    parts = [
+        (_found_title(diagnosis), _effects(diagnosis)),
+        ("where the recalibrated model is off", _where(diagnosis)),
+        (
+            "how far measured and predicted are apart, on held-out runs",
+            _gaps(diagnosis),
+        ),
+        ("what is left depends", _lines(diagnosis.signature)),
+        ("what to run next", _lines(_next(diagnosis))),
+        ("left out", _lines(_rejected(diagnosis))),
+        ("contradictions", _lines(_contradictions(diagnosis))),
+        ("remarks", _lines(diagnosis.recording.remarks)),
+        ("not testable here", _lines(_untested(diagnosis))),
+    ]
+    for title, part in parts:
+        if part is not None:
+            console.print(Text(f"\n{title}", style="bold"))
+            console.print(Padding(part, (0, 0, 0, 2), expand=False))
+
+
+def _found_title(diagnosis: Diagnosis) -> str:
+    unexplained = diagnosis.verdict is Verdict.UNEXPLAINED
+    return "what came nearest" if unexplained else "what was found"
+
+
+def _effects(diagnosis: Diagnosis) -> Group | None:
+    if not diagnosis.named:
+        return None
+    table = Table(
+        "name", "stage", "parameters (± 1 sigma)", "p", "ΔBIC", "also", box=None
+    )
+    for entry in diagnosis.named:
+        keys = keys_of(entry)
+        numbers = [
+            f"{keys[name].text} {one.value / keys[name].factor:.4g}"
+            f" ± {one.std / keys[name].factor:.2g}"
+            for name, one in entry.parameters.items()
+        ]
+        table.add_row(
+            public(entry.name),
+            entry.stage,
+            "\n".join(numbers),
+            f"{entry.p_value:.1g}",
+            f"{entry.delta_bic:.0f}",
+            "\n".join(map(public, entry.equivalents)) or "-",
+        )
+    said = [Text(statement(diagnosis, entry)) for entry in diagnosis.named]
+    return Group(*said, Text(), table)
+
+
+def _where(diagnosis: Diagnosis) -> Table | None:
+    if not diagnosis.where:
+        return None
+    table = Table("stage", "run", "region", "off by", "p", box=None)
+    for one in diagnosis.where[:PLACES]:
+        table.add_row(
+            one.stage, one.run, _region(one), _sized(one.signal, one.bias),
+            f"{one.p_value:.1g}",
+        )  # fmt: skip
+    if more := len(diagnosis.where) - PLACES:
+        table.add_row("", f"and {more} more", "", "", "") if more > 0 else None
+    return table
+
+
+def _region(finding: Finding) -> str:
+    said = [
+        f"{label}{span(finding, name)} {BY_QUANTITY[name].unit}".rstrip()
+        for name, label in REGION.items()
+        if name in finding.region
+    ]
+    return ", ".join(said)
+
+
+def _gaps(diagnosis: Diagnosis) -> Table | None:
+    if not diagnosis.gaps:
+        return None
+    table = Table(
+        "", "as it came", "recalibrated", "with what was found", "noise floor", box=None
+    )
+    for signal, gap in diagnosis.gaps.items():
+        sizes = (gap.before, gap.recalibrated, gap.after, gap.noise_floor)
+        style = "bold" if signal is diagnosis.main else ""
+        table.add_row(
+            signal.value, *(_sized(signal, size) for size in sizes), style=style
+        )
+    return table
+
+
+def _sized(signal: Signal, size: float) -> str:
+    column = BY_QUANTITY[signal.value]
+    return f"{size / column.scale:.3g} {column.unit}"
+
+
+def _next(diagnosis: Diagnosis) -> list[str]:
+    proposal = diagnosis.proposal
+    if proposal is None:
+        return []
+    title = f"{proposal.title}: " if proposal.title else ""
+    return [f"{title}{proposal.why}"]
+
+
+def _rejected(diagnosis: Diagnosis) -> list[str]:
+    return [
+        f"{one.run}: {one.count} of {one.column}, {one.reason}"
+        for one in diagnosis.recording.rejected
+    ]
+
+
+def _contradictions(diagnosis: Diagnosis) -> list[str]:
+    return [
+        f"{', '.join(one.runs)} against {', '.join(one.others)}: {one.column} differs"
+        f" by {one.difference:.3g} {one.unit}, repeats by {one.spread:.2g} {one.unit}"
+        for one in diagnosis.recording.contradictions
+    ]
+
+
+def _untested(diagnosis: Diagnosis) -> list[str]:
+    reasons: dict[str, list[str]] = {}
+    for name, reason in diagnosis.untested.items():
+        reasons.setdefault(reason, []).append(public(name))
+    return [f"{reason}: {', '.join(names)}" for reason, names in reasons.items()]
+
+
+def _lines(lines: "list[str] | tuple[str, ...]") -> Text | None:
+    return Text("\n".join(lines)) if lines else None

@@ -1,0 +1,173 @@
+"""What the page tells in tables: numbers as a person reads them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.key import CONSTANTS, keys_of, public
+from gripperd.diagnose.statement import span
+from gripperd.model.effect import Signal
+from gripperd.model.parameter import parameters
+from gripperd.reproduce.chapters import Table
+
+RANKED = 12
+"""Candidates listed with their gain."""
+PLACES = 12
+"""Findings listed; the document has all."""
+NORMAL_95 = 1.96
+"""Half width of the central 95 % of a normal law. [standard deviations]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """One line of a chart."""
+
+    label: str
+    value: str
+    share: float
+    """Length, of the whole width. [0..1]"""
+    chosen: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Bars:
+    """A chart of lines, and a mark across them."""
+
+    caption: str
+    lines: tuple[Bar, ...]
+    mark: float
+    """Place of the mark, of the whole width. [0..1]"""
+
+
+def gap_bars(diagnosis: Diagnosis, signal: Signal) -> Bars:
+    """Draw the gap on held-out runs: as it came, recalibrated, with what was found."""
+    gap, column = diagnosis.gaps[signal], BY_QUANTITY[signal.value]
+    sizes = {
+        "as it came": gap.before,
+        "better constants alone": gap.recalibrated,
+        "with what was found": gap.after,
+        "noise floor": gap.noise_floor,
+    }
+    if not diagnosis.named:
+        del sizes["with what was found"]
+    top = max(sizes.values()) or 1.0
+    lines = tuple(
+        Bar(
+            label,
+            f"{size / column.scale:.3g} {column.unit}",
+            size / top,
+            chosen=label == "with what was found",
+        )
+        for label, size in sizes.items()
+    )
+    caption = f"{signal.value}: root mean square of measured minus predicted"
+    if diagnosis.named:
+        low, high = (end / column.scale for end in gap.ci95_after)
+        caption += f"; with what was found {low:.3g} to {high:.3g} {column.unit} (95 %)"
+    return Bars(caption, lines, gap.noise_floor / top)
+
+
+def ranking(diagnosis: Diagnosis) -> Bars | None:
+    """Draw what each candidate alone would gain, best first."""
+    found = diagnosis.found
+    gains = sorted(found.gains.items(), key=lambda pair: -pair[1])[:RANKED]
+    if not gains or gains[0][1] <= 0:
+        return None
+    top = max(gains[0][1], found.threshold)
+    names = {entry.name for entry in diagnosis.named}
+    lines = tuple(
+        Bar(public(name), f"{gain:.0f}", max(gain, 0.0) / top, chosen=name in names)
+        for name, gain in gains
+    )
+    caption = (
+        "Gain of each candidate alone, in log odds (nat); noise alone passes the line"
+        " in one recording of a hundred"
+    )
+    return Bars(caption, lines, found.threshold / top)
+
+
+def contenders(diagnosis: Diagnosis) -> Table | None:
+    """Explanations that were fitted in full, best first."""
+    contest = diagnosis.contest
+    rivals = [contest.best, *(one for row in contest.rivals for one in row)]
+    rivals += [one for one in diagnosis.found.rivals if one.names]
+    rows: dict[tuple[str, ...], tuple[str, ...]] = {}
+    for rival in sorted(rivals, key=lambda one: -one.evidence):
+        names = tuple(sorted(map(public, rival.names)))
+        behind = contest.best.evidence - rival.evidence
+        misfit = 1 + rival.excess / rival.fit.samples
+        label = " + ".join(names) or "better constants alone"
+        rows.setdefault(names, (label, f"{behind:.1f}", f"{misfit:.2f}"))
+    return Table(
+        "Explanations fitted in full",
+        ("explanation", "behind the best [nat]", "χ² per sample"),
+        tuple(list(rows.values())[:RANKED]),
+    )
+
+
+def numbers(diagnosis: Diagnosis) -> Table | None:
+    """Everything fitted of what was found, with intervals."""
+    rows = tuple(_numbers(diagnosis))
+    columns = ("of", "parameter", "value", "± 1 sigma", "95 % interval", "bounds")
+    return Table("Parameters", columns, rows) if rows else None
+
+
+def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
+    for entry in diagnosis.named:
+        known = parameters(entry.effect) if entry.effect else {}
+        for name, key in keys_of(entry).items():
+            one = entry.parameters[name]
+            ends = [one.value + side * NORMAL_95 * one.std for side in (-1, 1)]
+            limits = [known[name].low, known[name].high] if name in known else []
+            yield (
+                public(entry.name),
+                key.text,
+                f"{one.value / key.factor:.4g}",
+                f"{one.std / key.factor:.2g}",
+                " to ".join(f"{end / key.factor:.4g}" for end in ends),
+                " to ".join(f"{end / key.factor:.4g}" for end in limits) or "-",
+            )
+
+
+def constants(diagnosis: Diagnosis) -> Table:
+    """Constants of the model: as they came, and as they fit."""
+    point, fit = diagnosis.explained, diagnosis.contest.best.fit
+    stds = np.sqrt(np.diag(fit.covariance)[: point.shifts.size]) * point.widths
+    rows = []
+    for index, constant in enumerate(diagnosis.found.problem.constants):
+        if (key := CONSTANTS.get(constant.path)) is None:
+            continue
+        shift, scale = float(point.shifts[index]), constant.sigma / key.factor
+        rows.append(
+            (
+                key.title,
+                f"{constant.nominal / key.factor:.5g}",
+                f"{scale:.2g}" + ("" if constant.stated else " (assumed)"),
+                f"{constant.nominal / key.factor + shift * scale:.5g}",
+                f"{float(stds[index]) * scale:.2g}",
+                f"{shift:+.1f} sigma",
+                (key.unit or "-").replace("_per_", "/"),
+            )
+        )
+    columns = ("constant", "model", "tolerance", "fit", "± 1 sigma", "moved by", "unit")
+    return Table("Constants of the model", columns, tuple(rows))
+
+
+def places(diagnosis: Diagnosis) -> Table | None:
+    """Stretches in which the recalibrated model is off, largest first."""
+    rows = tuple(
+        (
+            one.run,
+            one.stage,
+            f"{one.bias / BY_QUANTITY[one.signal.value].scale:+.3g}"
+            f" {BY_QUANTITY[one.signal.value].unit}",
+            f"{one.p_value:.0e}",
+            *(span(one, name) for name in ("time", "pressure", "contraction")),
+        )
+        for one in diagnosis.where[:PLACES]
+    )
+    columns = ("run", "stage", "off by", "p", "t [s]", "p [kPa]", "contraction")
+    return Table("Where, with better constants alone", columns, rows) if rows else None

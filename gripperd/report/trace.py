@@ -1,0 +1,109 @@
+"""What was measured in one sweep, and what three models expect of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.recording import Kind
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+REGRESSORS = ("current", "pressure", "contraction", "temperature")
+
+
+class State(StrEnum):
+    """A model that is compared with the measurement."""
+
+    NOMINAL = "as it came"
+    RECALIBRATED = "better constants"
+    EXPLAINED = "with what was found"
+
+
+@dataclass(frozen=True)
+class Trace:
+    """One signal in one sweep; arrays of one shape ``(n,)``, in the units of files."""
+
+    run: str
+    kind: Kind | None
+    time: Array
+    """Since the start of the sweep. [s]"""
+    measured: Array
+    expected: Mapping[State, Array]
+    """Nothing with what was found when nothing was."""
+    levels: Mapping[str, Array]
+    """Of those regressors that were measured, by quantity."""
+    direction: Array
+    """Of travel, 0 in a sweep without. [-1, 1]"""
+    held_out: NDArray[np.bool_]
+    """Samples that took no part in choosing or fitting."""
+
+    def residual(self, state: State) -> Array:
+        """Measured minus expected."""
+        return self.measured - self.expected[state]
+
+
+def traces(diagnosis: Diagnosis, signal: Signal) -> tuple[Trace, ...]:
+    """Give every sweep that shows a signal, in order of time."""
+    whole = replace(diagnosis.split.train, kept=())
+    points = {
+        State.NOMINAL: diagnosis.nominal,
+        State.RECALIBRATED: diagnosis.recalibrated,
+    }
+    if diagnosis.named:
+        points[State.EXPLAINED] = diagnosis.explained
+    expected = {
+        state: whole.expected(whole.explanation(point))
+        for state, point in points.items()
+    }
+    return tuple(
+        _trace(
+            diagnosis,
+            whole,
+            index,
+            {state: one[index] for state, one in expected.items()},
+        )
+        for index, block in enumerate(whole.blocks)
+        if block.signal is signal
+    )
+
+
+def _trace(
+    diagnosis: Diagnosis, whole: Problem, index: int, expected: Mapping[State, Array]
+) -> Trace:
+    block = whole.blocks[index]
+    course, good = whole.courses[block.course], block.good
+    column = BY_QUANTITY[block.signal.value]
+    levels = {
+        name: BY_QUANTITY[name].written(course.level(name)[good])
+        for name in REGRESSORS
+        if np.isfinite(course.level(name)[good]).all()
+    }
+    kept = diagnosis.split.test.kept
+    return Trace(
+        run=course.run,
+        kind=course.kind,
+        time=course.time[good] - course.time[0],
+        measured=column.written(whole.measured[index]),
+        expected={state: column.written(values) for state, values in expected.items()},
+        levels=levels,
+        direction=course.direction[good],
+        held_out=kept[block.course][good],
+    )
+
+
+def joined(found: tuple[Trace, ...], state: State) -> Array:
+    """Residuals of all sweeps, one after the other."""
+    return np.concatenate([one.residual(state) for one in found])
+
+
+def level(found: tuple[Trace, ...], name: str) -> Array:
+    """A regressor over all sweeps, NaN where it was not measured."""
+    return np.concatenate(
+        [one.levels.get(name, np.full_like(one.time, np.nan)) for one in found]
+    )

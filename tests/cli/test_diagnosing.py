@@ -1,0 +1,226 @@
+"""The diagnosis from the command line, run for real."""
+
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from gripperd.demo.files import write_rig
+from gripperd.demo.rig import Hidden
+from gripperd.diagnose.document import document
+from gripperd.store import Versions
+from tests.daemon import gripperd, settings_file
+from tests.demonstration import SEED, STEP, example
+
+
+class Done(NamedTuple):
+    """A rig with creep, diagnosed with everything that can be asked for."""
+
+    folder: Path
+    settings: Path
+    output: str
+    error: str
+    status: int
+
+    def at(self, name: str) -> str:
+        return str(self.folder / name)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
+    folder = tmp_path_factory.mktemp("diagnosis")
+    write_rig(folder, Hidden.CREEP, SEED, STEP)
+    settings = settings_file(folder)
+    ended = gripperd(
+        "diagnose", str(folder / "rig.csv"), "--model", str(folder / "model.yaml"),
+        "--json", str(folder / "found.json"), "--report", str(folder / "found.html"),
+        "--apply", "--seed", str(SEED), "--config", str(settings),
+    )  # fmt: skip
+    return Done(folder, settings, ended.stdout, ended.stderr, ended.returncode)
+
+
+def test_a_verdict_is_a_success(done: Done) -> None:
+    assert done.status == 0, done.error
+    assert done.output.startswith("named  The model lacks creep; ")
+
+
+def test_the_summary_has_effect_place_and_gap(done: Done) -> None:
+    for said in ("time_s", "isobaric_2", "recalibrated", "noise floor", "not testable"):
+        assert said in done.output
+
+
+def test_in_a_pipe_there_is_no_progress_and_no_colour(done: Done) -> None:
+    assert done.error == ""
+    assert "\x1b" not in done.output
+
+
+def test_another_process_with_the_same_seed_says_the_same(done: Done) -> None:
+    model, found = example(Hidden.CREEP)
+    here = document(found, model=model.name, program="0.1.0")
+    there = json.loads((done.folder / "found.json").read_text())
+    assert there == json.loads(json.dumps(here))
+
+
+def test_what_was_named_is_kept_as_a_version(done: Done) -> None:
+    model, _ = example(Hidden.CREEP)
+    versions = Versions(done.folder / "state" / "models" / "as-drawn", model)
+    version = versions.get(1)
+    assert version.model.effects == ()
+    assert [each.name for each in version.model.static.effects] == ["creep"]
+    assert f"kept as as-drawn-1: {version.model.source}" in done.output
+
+
+def test_the_page_is_written(done: Done) -> None:
+    page = done.folder / "found.html"
+    assert page.read_text(encoding="utf-8").startswith("<!doctype html>")
+    assert f"wrote {page.resolve().as_uri()}" in done.output
+
+
+def short(done: Done) -> str:
+    """Few rows in which nothing can be missing; it takes a second."""
+    text = (done.folder / "rig.csv").read_text().splitlines(keepends=True)
+    path = done.folder / "short.csv"
+    path.write_text("".join(text[:45]))
+    return str(path)
+
+
+def test_json_on_stdout_stands_alone(done: Done) -> None:
+    ended = gripperd(
+        "diagnose", short(done), "--model", done.at("model.yaml"), "--json", "-"
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert json.loads(ended.stdout)["verdict"] == "none"
+
+
+def test_nothing_named_is_nothing_applied(done: Done) -> None:
+    ended = gripperd(
+        "diagnose", short(done), "--model", done.at("model.yaml"), "--apply",
+        "--config", str(done.settings),
+    )  # fmt: skip
+    assert ended.returncode == 1
+    assert "error: nothing to apply, the verdict is none" in ended.stderr
+    assert ended.stdout.startswith("none  ")
+
+
+def test_a_model_of_the_same_name_is_not_mixed_with_the_configured(done: Done) -> None:
+    text = (done.folder / "model.yaml").read_text()
+    other = done.folder / "other.yaml"
+    other.write_text(text.replace("name: as-drawn", "name: reference"))
+    ended = gripperd(
+        "diagnose", short(done), "--model", str(other), "--apply",
+        "--config", str(done.settings),
+    )  # fmt: skip
+    assert ended.returncode == 1
+    assert "another model is configured as reference" in ended.stderr
+
+
+def cut(column: str) -> Callable[[str], str]:
+    """Leave a column out."""
+
+    def without(text: str) -> str:
+        rows = [line.split(",") for line in text.splitlines()]
+        place = rows[0].index(column)
+        return "\n".join(",".join(row[:place] + row[place + 1 :]) for row in rows)
+
+    return without
+
+
+def filled(text: str) -> str:
+    """Put nothing measured into every row."""
+    header, *rows = text.splitlines()
+    empty = [
+        ",".join([*row.split(",")[:2], "nan", "nan", "nan", "nan"]) for row in rows
+    ]
+    return "\n".join([header, *empty])
+
+
+def shared(text: str) -> str:
+    """Let two muscles stand in one file."""
+    header, *rows = text.splitlines()
+    named = [f"{row},{'AB'[index % 2]}" for index, row in enumerate(rows)]
+    return "\n".join([f"{header},muscle", *named])
+
+
+def reversed_rows(text: str) -> str:
+    """Let time run backwards."""
+    header, *rows = text.splitlines()
+    return "\n".join([header, *reversed(rows)])
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "complaint"),
+    [
+        (cut("pressure_kPa"), "links no two points of the chain"),
+        (cut("t_s"), "t_s"),
+        (shared, "names 2 muscles"),
+        (lambda text: "\n".join(text.splitlines()[:6]), "5 of 5 rows are usable"),
+        (filled, "links no two points of the chain"),
+        (reversed_rows, "t_s runs backwards"),
+        (lambda _text: "", "is empty"),
+    ],
+    ids=[
+        "no pressure",
+        "no time",
+        "two muscles",
+        "5 rows",
+        "nan",
+        "backwards",
+        "empty",
+    ],
+)
+def test_an_unusable_recording_is_one_clear_message(
+    done: Done, spoilt: Callable[[str], str], complaint: str
+) -> None:
+    path = done.folder / "spoilt.csv"
+    path.write_text(spoilt((done.folder / "rig.csv").read_text()))
+    refused(str(path), done.at("model.yaml"), str(path), complaint)
+
+
+def test_what_is_no_recording_is_one_clear_message(done: Done) -> None:
+    folder = done.folder / "folder.csv"
+    folder.mkdir()
+    binary = done.folder / "binary.csv"
+    binary.write_bytes(bytes(range(256)) * 40)
+    sparse = done.folder / "sparse.csv"
+    sparse.touch()
+    os.truncate(sparse, 2 * 2**30)
+    for path, complaint in (
+        (folder, "is not a file"),
+        (binary, "is neither a CSV file"),
+        (sparse, "2048 MB are more than"),
+        (done.folder / "absent.csv", "there is no such file"),
+    ):
+        refused(str(path), done.at("model.yaml"), str(path), complaint)
+
+
+@pytest.mark.parametrize(
+    ("model", "complaint"),
+    [("rig.csv", "is not a mapping"), ("absent.yaml", "there is no such file")],
+)
+def test_an_unusable_model_is_one_clear_message(
+    done: Done, model: str, complaint: str
+) -> None:
+    refused(done.at("rig.csv"), done.at(model), model, complaint)
+
+
+def test_a_place_that_is_not_there_is_told_before_the_work(done: Done) -> None:
+    ended = gripperd(
+        "diagnose", done.at("rig.csv"), "--model", done.at("model.yaml"),
+        "--report", done.at("nowhere/found.html"),
+    )  # fmt: skip
+    assert ended.returncode == 2
+    assert "there is no folder" in ended.stderr
+    assert ended.stdout == ""
+
+
+def refused(recording: str, model: str, *said: str) -> None:
+    ended = gripperd("diagnose", recording, "--model", model)
+    assert ended.returncode == 2
+    assert ended.stdout == ""
+    assert len(ended.stderr.splitlines()) == 1
+    assert ended.stderr.startswith("error: ")
+    for words in said:
+        assert words in ended.stderr

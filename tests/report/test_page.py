@@ -1,0 +1,165 @@
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+
+from gripperd.demo.rig import Hidden
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.next_experiment import Proposal
+from gripperd.diagnose.recording import Contradiction, Kind, Rejection
+from gripperd.diagnose.statement import summary
+from gripperd.errors import InputError
+from gripperd.report import page
+from gripperd.reproduce.extra import not_installed
+from tests.demonstration import example
+
+VOID = {"meta", "link", "br", "img", "wbr", "hr", "input"}
+
+
+class Checked(HTMLParser):
+    """Every element is closed, and nothing is fetched."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.fetched: list[str] = []
+        self.names: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.fetched += [
+            f"{tag} {key}={given[key]}"
+            for key in ("src", "href", "data", "srcset")
+            if given.get(key) and not str(given[key]).startswith("#")
+        ]
+        if name := given.get("id"):
+            self.names.append(name)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def written(diagnosis: Diagnosis) -> str:
+    return page(diagnosis, model="as-drawn", program="0.1.0")
+
+
+@pytest.fixture(scope="module")
+def creep() -> Diagnosis:
+    return example(Hidden.CREEP)[1]
+
+
+@pytest.fixture(scope="module")
+def text(creep: Diagnosis) -> str:
+    return written(creep)
+
+
+def test_it_needs_nothing_but_a_browser(text: str) -> None:
+    checked = Checked()
+    checked.feed(text)
+    assert checked.open == []
+    assert checked.fetched == []
+    assert "<script" not in text
+    assert "@import" not in text
+    assert "url(http" not in text
+
+
+def test_no_two_elements_share_a_name(text: str) -> None:
+    checked = Checked()
+    checked.feed(text)
+    assert len(checked.names) == len(set(checked.names))
+
+
+def test_it_says_the_verdict_first(text: str, creep: Diagnosis) -> None:
+    heading = re.search(r"<h1>(.*?)</h1>", text)
+    assert heading is not None
+    assert heading.group(1) == summary(creep)
+
+
+@pytest.mark.parametrize("figure", ["map", "over_time", "against", "held_out"])
+def test_it_shows_where_and_how_much_better(text: str, figure: str) -> None:
+    assert f'<figure id="{figure}">' in text
+
+
+def test_the_gap_is_four_numbers(text: str, creep: Diagnosis) -> None:
+    assert creep.main is not None
+    gap = creep.gaps[creep.main]
+    for size in (gap.before, gap.recalibrated, gap.after, gap.noise_floor):
+        assert f'<span class="value">{size:.3g} N</span>' in text
+
+
+def test_a_bar_is_as_long_as_its_number(text: str, creep: Diagnosis) -> None:
+    assert creep.main is not None
+    gap = creep.gaps[creep.main]
+    share = 100 * gap.after / gap.before
+    assert f'style="width:{share:.1f}%"' in text
+
+
+def test_the_same_diagnosis_gives_the_same_page(text: str, creep: Diagnosis) -> None:
+    assert written(creep) == text
+
+
+def test_an_open_question_comes_with_the_sweep_that_answers_it(
+    creep: Diagnosis,
+) -> None:
+    plan = {
+        "title": "slow sweep",
+        "t_s": [0.0, 20.0],
+        "pressure_kPa": [0.0, 300.0],
+        "contraction": [0.0, 0.0],
+    }
+    proposal = Proposal(Kind.ISOMETRIC, "separates A from B", "slow sweep", plan, 30.0)
+    rival = replace(creep.named[0], equivalents=("valve_lag",))
+    text = written(
+        replace(creep, verdict=Verdict.AMBIGUOUS, named=(rival,), proposal=proposal)
+    )
+    assert '<figure id="plan">' in text
+    assert "pressure_kPa: [0.0, 300.0]" in text
+    assert "<code>valve_lag</code>" in text
+
+
+def test_what_was_left_out_is_told_and_cannot_break_the_page(creep: Diagnosis) -> None:
+    recording = replace(
+        creep.recording,
+        rejected=(Rejection("<b>run", "force_N", 7, "frozen"),),
+        contradictions=(Contradiction(("a",), ("b",), "force_N", 12.5, "N", 2.0),),
+    )
+    text = written(replace(creep, recording=recording))
+    assert "7 of force_N in &lt;b&gt;run, frozen" in text
+    assert "12.5 N" in text
+
+
+def test_where_nothing_was_found_nothing_is_said_to_be(creep: Diagnosis) -> None:
+    text = written(replace(creep, verdict=Verdict.NONE, named=()))
+    assert '<figure id="map">' in text
+    assert "with what was found" not in text
+
+
+def test_without_anything_held_out_it_is_still_a_page(creep: Diagnosis) -> None:
+    checked = Checked()
+    text = written(
+        replace(creep, verdict=Verdict.NONE, named=(), gaps={}, main=None, where=())
+    )
+    checked.feed(text)
+    assert checked.open == []
+    assert '<figure id="map">' not in text
+
+
+@pytest.mark.parametrize(
+    ("package", "kind"), [("matplotlib.figure", InputError), ("numpy", ImportError)]
+)
+def test_only_a_missing_extra_is_the_reader_s_to_install(
+    package: str, kind: type[Exception]
+) -> None:
+    said = not_installed(ModuleNotFoundError(name=package), "report")
+    assert isinstance(said, kind)
+    if kind is InputError:
+        assert str(said) == ("drawing needs matplotlib: pip install 'gripperd[report]'")
