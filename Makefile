@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: run test bench lint clean
+.PHONY: run test bench exam exam-peers lint clean
 
 run: $(VENV)/installed
 	$(BIN)/gripperd run
@@ -14,6 +14,17 @@ test: $(VENV)/developing
 
 bench: $(VENV)/developing
 	$(BIN)/python -m tests.benchmarks
+
+# CASES, FAMILY (A, B, both), JOBS, SEED and RESULTS (JSON lines) are variables.
+EXAM = $(if $(CASES),--cases $(CASES)) $(if $(FAMILY),--family $(FAMILY)) \
+	$(if $(JOBS),--jobs $(JOBS)) $(if $(SEED),--seed $(SEED)) \
+	$(if $(RESULTS),--results $(RESULTS))
+
+exam: $(VENV)/developing
+	$(BIN)/python -m tests.exam $(EXAM)
+
+exam-peers: $(VENV)/examining
+	$(BIN)/python -m tests.exam.peers $(EXAM)
 
 lint: $(VENV)/developing
 	$(BIN)/ruff check
@@ -32,4 +43,8 @@ $(VENV)/installed: pyproject.toml
 # Dependency groups need the newer pip that the first stamp has installed.
 $(VENV)/developing: $(VENV)/installed
 	$(PIP) install --group dev
+	touch $@
+
+$(VENV)/examining: $(VENV)/developing
+	$(PIP) install --group exam
 	touch $@
