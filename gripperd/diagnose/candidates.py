@@ -88,7 +88,8 @@ def candidates(
             or effect.signal in problem.signals
         ]
     for index, constant in enumerate(problem.constants):
-        if constant.path.partition(".")[0] in PARTS:
+        sliding = constant.path == "muscle.friction_coefficient"
+        if constant.path.partition(".")[0] in PARTS and (travelled or not sliding):
             found.append(Candidate(WRONG + constant.path, None, index))
     return tuple(found), unseen
 

@@ -1,7 +1,7 @@
 """From an explanation to a verdict."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -65,6 +65,13 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     else:
         verdict = Verdict.NAMED
     return Conclusion(verdict, after, share)
+
+
+def not_confirmed(conclusion: Conclusion) -> Conclusion:
+    """Withdraw names that sweeps which took no part do not bear out."""
+    if conclusion.verdict in (Verdict.NAMED, Verdict.AMBIGUOUS):
+        return replace(conclusion, verdict=Verdict.UNEXPLAINED)
+    return conclusion
 
 
 def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:

@@ -164,7 +164,10 @@ def moved(
         linkage=explanation.linkage
         and replace(explanation.linkage, **values.get("gripper", {})),
         zeros={Signal(name): zero for name, zero in values.get("zero", {}).items()},
-        rests={int(name): sign for name, sign in values.get("rest", {}).items()},
+        rests={
+            int(name): min(max(sign, -1.0), 1.0)
+            for name, sign in values.get("rest", {}).items()
+        },
         skews={Signal(name): skew for name, skew in values.get("skew", {}).items()},
         response=max(values.get("response", {}).get("valve", 0.0), 0.0),
     )

@@ -10,7 +10,7 @@ from gripperd.diagnose.candidates import Candidate, amplitudes
 from gripperd.diagnose.gram import Fit, Gram
 from gripperd.diagnose.problem import FREED, WITHIN, Point, Problem
 from gripperd.model.effect import Effect, Signal, Stage
-from gripperd.model.parameter import Parameter, parameters
+from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
 
 TYPICAL = 0.04
@@ -19,6 +19,8 @@ BROKEN = 0.065
 """Largest bias of a transmitter in use, of full scale. [-]"""
 STROKE = 0.25
 """Contraction of a fluidic muscle: the full scale of its length. [-]"""
+SPOILT = 0.12
+"""The same of its gain. [-]"""
 BIASES = ("N", "kPa")
 FAINT = 1e-4
 """A response below this share of full scale cannot be seen. [-]"""
@@ -109,7 +111,10 @@ def _acting(
     for name, response in zip(names, problem.responses(point, effect), strict=True):
         prior = problem_prior(problem, response) or 1.0
         start = getattr(effect, name) / known[name].scale / prior
-        columns.append(build.add(response, prior, start, _bounds(known[name])))
+        low, high = (
+            bound / known[name].scale / prior for bound in limits(problem, effect, name)
+        )
+        columns.append(build.add(response, prior, start, (low, high)))
         scales.append(prior)
     return Member(
         Candidate(effect.name, effect), np.array(columns, np.intp), np.array(scales)
@@ -126,8 +131,11 @@ def _response(
         prior = problem_prior(problem, response)
         if prior is None:
             continue
-        bounds = _bounds(known[name]) if name else (0.0, np.inf)
-        columns.append(build.add(response, prior, 0.0, bounds))
+        low, high = 0.0, np.inf
+        if name:
+            size = known[name].scale * prior
+            low, high = (bound / size for bound in limits(problem, effect, name))
+        columns.append(build.add(response, prior, 0.0, (low, high)))
         scales.append(prior)
     return columns, scales
 
@@ -145,11 +153,6 @@ def problem_prior(problem: Problem, response: Sequence[Array]) -> float | None:
     return TYPICAL / loudest if np.isfinite(loudest) and loudest > FAINT * 0.1 else None
 
 
-def _bounds(known: Parameter) -> tuple[float, float]:
-    """An amplitude that cannot be negative is a bound; its size is left to the data."""
-    return (0.0 if known.low >= 0 else -np.inf), np.inf
-
-
 def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:
     """Bounds of a parameter: those of physics, and of what a sensor in use may be off.
 
@@ -158,6 +161,8 @@ def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:
     """
     known = parameters(effect)[name]
     scale = problem.full_scale.get(effect.signal)
+    if effect.stage is Stage.SENSOR and name == "error":
+        return max(known.low, -SPOILT), min(known.high, SPOILT)
     if effect.signal is Signal.CONTRACTION and known.is_amplitude:
         scale = STROKE
     elif effect.stage is not Stage.SENSOR or known.unit not in BIASES or scale is None:

@@ -8,7 +8,12 @@ import numpy as np
 
 from gripperd.diagnose.believed import believed
 from gripperd.diagnose.candidates import Candidate, candidates
-from gripperd.diagnose.conclude import Conclusion, Verdict, conclude
+from gripperd.diagnose.conclude import (
+    Conclusion,
+    Verdict,
+    conclude,
+    not_confirmed,
+)
 from gripperd.diagnose.course import is_table
 from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
 from gripperd.diagnose.holdout import Split, split
@@ -28,6 +33,8 @@ from gripperd.model.effect import Effect, Signal, Stage
 
 MOST_ROWS = 40_000
 """More are averaged, whole numbers of neighbours: they cost and tell nothing."""
+WORSE = 1.01
+"""Gap over that of better constants alone from which a name is withdrawn. [-]"""
 LOOSE = 0.0125
 """Stated tolerance of the rest length from which its zero is open. [-]"""
 
@@ -171,6 +178,12 @@ def _told(
     )
     judged = gaps(parts.test, points, train.noises, np.random.default_rng(seed))
     entries = named(found, best, judged)
+    main = _main(best, judged)
+    if main is not None and judged[main].after > WORSE * judged[main].recalibrated:
+        conclusion = not_confirmed(conclusion)
+    if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
+        # Nothing is added to the model, so better constants are all there is.
+        judged = {s: replace(gap, after=gap.recalibrated) for s, gap in judged.items()}
     unexplained = conclusion.verdict is Verdict.UNEXPLAINED
     return Diagnosis(
         recording=recording,
@@ -178,7 +191,7 @@ def _told(
         named=entries,
         where=findings(train, train.residuals(found.null.fit.point)),
         gaps=judged,
-        main=_main(best, judged),
+        main=main,
         held_out=parts.runs,
         proposal=_next(found.problem, best),
         signature=signature(train, best, conclusion) if unexplained else (),

@@ -19,6 +19,8 @@ SHARE = 0.2
 """Of the sweeps that can be spared. [-]"""
 FEW = 5
 """With fewer sweeps none can be spared: the end of each is left out instead."""
+HELD = 0.03
+"""Within this share of the highest pressure a sweep is a hold. [-]"""
 TAIL = 0.25
 """Part of a sweep that is left out then. [-]"""
 
@@ -62,20 +64,51 @@ def _spared(courses: Sequence[Course]) -> set[int]:
     The first of a recording stays: only it can show a first inflation.
     """
     wanted = max(1, round(SHARE * len(courses)))
+    top = max(
+        float(np.nanmax(course.level("pressure"), initial=0.0)) for course in courses
+    )
     inner = [
-        index for index in range(1, len(courses)) if _inside(courses, index)
-    ] or list(range(1, len(courses)))
-    places = np.linspace(0, len(inner) - 1, wanted + 2)[1:-1]
-    spared = {inner[round(place)] for place in places}
-    grasps = [
         index
-        for index, course in enumerate(courses)
-        if np.isfinite(course.column("opening")).any()
-    ]
-    # Of three grasps one can be spared, or no jaw is judged by what it did not fit.
+        for index in range(1, len(courses))
+        if _inside(courses, index) and not _still(courses[index], top)
+    ] or list(range(1, len(courses)))
+    moving = [index for index in inner if _travelled(courses[index])]
+    resting = [index for index in inner if index not in moving]
+    of_moving = round(wanted * len(moving) / len(inner))
+    spared = {*_spread(moving, of_moving), *_spread(resting, wanted - of_moving)}
+    grasps = [index for index, course in enumerate(courses) if _gripped(course)]
+    # Of three grasps one can be spared, or no sweep judges the jaws.
     if len(grasps) >= 3 and not spared & set(grasps):
-        spared.add(grasps[len(grasps) // 2])
+        spared.add(grasps[-1])
     return spared
+
+
+def _spread(places: Sequence[int], count: int) -> list[int]:
+    """So many of a row, evenly, and not its ends."""
+    if not places:
+        return []
+    chosen = np.linspace(0, len(places) - 1, count + 2)[1:-1]
+    return [places[round(place)] for place in chosen.tolist()]
+
+
+def _gripped(course: Course) -> bool:
+    return bool(np.isfinite(course.column("opening")).any())
+
+
+def _travelled(course: Course) -> bool:
+    return bool(np.ptp(course.direction) == 2)
+
+
+def _still(course: Course, top: float) -> bool:
+    """Whether hardly anything moves: a hold is what the drift is known from.
+
+    Most of its samples lie within a small part of what it went through to get there.
+    """
+    pressure = course.level("pressure")
+    if _travelled(course) or not np.isfinite(pressure).any():
+        return False
+    low, high = np.nanquantile(pressure, (0.2, 0.9))
+    return bool(high - low <= HELD * top)
 
 
 def _inside(courses: Sequence[Course], index: int) -> bool:

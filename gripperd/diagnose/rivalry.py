@@ -3,10 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.design import Member, design
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.problem import WITHIN, Point, Problem
 from gripperd.diagnose.search import Found, Rival, added
 
 EXCHANGES = 2
@@ -117,4 +119,6 @@ def _removed(point: Point, candidate: Candidate) -> Point:
     if candidate.effect is not None:
         return point.without(candidate.name)
     assert candidate.constant is not None
-    return replace(point, freed=point.freed - {candidate.constant})
+    shifts = point.shifts.copy()
+    shifts[candidate.constant] = np.clip(shifts[candidate.constant], -WITHIN, WITHIN)
+    return replace(point, shifts=shifts, freed=point.freed - {candidate.constant})

@@ -25,6 +25,10 @@ FALSE_ALARMS = 0.01
 PHANTOM = 0.06
 """An addition that closes less of the first gap than this repairs its shape, and is
 not an effect of its own: no library has the formula of nature. [-]"""
+ELSEWHERE = 0.3
+"""Share of a gain from which a signal counts as gaining. [-]"""
+HALF = 0.4
+"""Share of what is left, far above the noise, that an effect of its own takes. [-]"""
 EXACT = 0.25
 """The same is dearer by so much less for what has but one form, as the first effect
 that leaves nothing to repair or as the one that could repair it. [-]"""
@@ -35,6 +39,8 @@ LEAST = 20.0
 """Gain below which no model of a rig is known well enough: odds of 5e8. [nat]"""
 MISFIT = 2.0
 """Mean square of what the best explanation leaves, from which it is not noise. [-]"""
+LEAST_MORE = 45.0
+"""The same of a further effect: the first one was fitted with a form of ours. [nat]"""
 HOPELESS = 150.0
 """The same of the null, from which no explanation can reach the noise. [-]"""
 COOLINGS = 3
@@ -262,17 +268,24 @@ def _worth(
     What the new part closes is held against what was closed in the signals it acts on:
     elsewhere there is no shape that it could repair.
     """
-    if larger.evidence - best.evidence <= threshold:
+    gain = larger.evidence - best.evidence
+    if not best.candidates or gain <= threshold:
+        return gain > threshold
+    if problem.temperature == 1 and gain <= LEAST_MORE:
         return False
-    if not best.candidates:
-        return True
     new = [one for one in larger.candidates if one.name not in best.names]
+    further = best.fit.cost - larger.fit.cost
     signals = {signal for one in new for signal in acts_on(problem, one)}
+    # Constants tie the stages together: it may close elsewhere what it sets free here.
+    gained = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
+    signals |= {s for s, gain in gained.items() if gain > ELSEWHERE * further}
     closed = sum(null.fit.misfits[s] - larger.fit.misfits[s] for s in signals)
     price = PHANTOM
     for group in (best.candidates[:1], new):
         price *= EXACT if group and all(is_exact(one) for one in group) else 1.0
-    return best.fit.cost - larger.fit.cost > price * closed
+    # Far above the noise it counts what an addition takes of what was left.
+    halves = problem.temperature > 1 and further > HALF * best.fit.cost
+    return halves or further > price * closed
 
 
 def acts_on(problem: Problem, candidate: Candidate) -> frozenset[Signal]:

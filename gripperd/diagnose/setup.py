@@ -8,6 +8,7 @@ import numpy as np
 from gripperd.diagnose.constants import constants
 from gripperd.diagnose.course import Course, alike, courses, is_table
 from gripperd.diagnose.drift import Quiet, hold, repeat, thinned, with_drift
+from gripperd.diagnose.holdout import split
 from gripperd.diagnose.noise import Noise, quick_noise
 from gripperd.diagnose.plausible import check_plausible
 from gripperd.diagnose.polish import polished
@@ -55,16 +56,18 @@ def problem_of(
         model = replace(model, told_length=model.muscle.rest_length)
     loud = {signal: noises[signal.value] for signal in INPUTS if signal.value in noises}
     rough = Problem(sweeps, model, (), loud, _slack(sweeps, loud))
-    scales = dict(rough.full_scale)
+    check_plausible(rough, recording.name)
+    # What is left out later must not even tell how loud the noise is.
+    scales = dict(split(rough).train.full_scale)
     if any("contraction" in sweep.measured for sweep in sweeps):
         scales[Signal.CONTRACTION] = 1.0
     resting = [i for i, sweep in enumerate(sweeps) if (sweep.direction == 0).sum() > 3]
-    check_plausible(rough, recording.name)
     listed = constants(model, tolerances, scales, resting)
     problem = replace(rough, constants=listed)
     for _ in range(2):
-        null = polished(problem, Point(np.zeros(len(listed)))).point
-        problem = replace(problem, noises=_noises(problem, null))
+        train = split(problem).train
+        null = polished(train, Point(np.zeros(len(listed)))).point
+        problem = replace(problem, noises=loud | _noises(train, null))
     return problem
 
 
@@ -112,9 +115,11 @@ def _vented(problem: Problem, signal: Signal) -> list[Quiet]:
         return []
     top = _top(problem)
     found: list[Quiet] = []
-    for course in problem.courses:
+    for index, course in enumerate(problem.courses):
         reading = course.column(signal.value)
         good = np.isfinite(reading)
+        if problem.kept:
+            good &= problem.kept[index]
         if good.sum() < 20 or not _holds(course, top):
             continue
         empty = float(np.nanmean(course.level("pressure"))) < VENTED * top

@@ -132,7 +132,9 @@ def _happened(explanation: Explanation, signal: Signal, track: Track) -> Array:
     if signal is Signal.PRESSURE and explanation.response > 0:
         quick = explanation.response
         value = lag(value, track.step, quick, quick, begin())
-    return np.maximum(value, 0.0) if signal is Signal.GRIP else value
+    # Neither does a regulator suck, nor do jaws pull at what they hold.
+    bounded = signal in (Signal.PRESSURE, Signal.GRIP)
+    return np.maximum(value, 0.0) if bounded else value
 
 
 def _strained(explanation: Explanation, track: Track) -> Track:

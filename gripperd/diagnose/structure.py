@@ -102,7 +102,9 @@ def _views(
             continue
         order = np.argsort(column, kind="stable")
         yield name, _cosines(left[order], WAVES)
-        yield f"{name} x direction", _cosines((left * sign)[order], WAVES)
+        moving = order[sign[order] != 0]
+        if moving.size > 3 * WAVES:
+            yield f"{name} x direction", _cosines((left * sign)[moving], WAVES)
     yield "cells", _cells(left, pieces[first], pieces["contraction"])
 
 

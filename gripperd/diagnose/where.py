@@ -125,11 +125,17 @@ def _joined(kept: Sequence[Finding]) -> list[Finding]:
             last is not None
             and (last.run, last.signal) == (cell.run, cell.signal)
             and last.bias * cell.bias > 0
+            and _adjoin(last, cell)
         ):
             out[-1] = _union(last, cell)
         else:
             out.append(cell)
     return out
+
+
+def _adjoin(one: Finding, next_one: Finding) -> bool:
+    start, end = next_one.region["time"]
+    return start - one.region["time"][1] < 0.5 * (end - start)
 
 
 def _union(one: Finding, other: Finding) -> Finding:

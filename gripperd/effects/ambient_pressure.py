@@ -42,7 +42,7 @@ class AmbientPressure(InSensor):
 
     share: float = amplitude(unit=None, scale=1.0, low=-1.5, high=1.5)
     """Error of the reading per deviation of the air pressure. [Pa/Pa]"""
-    zero: float = amplitude(unit="kPa", scale=1e3, low=-100e3, high=100e3)
+    zero: float = amplitude(unit="kPa", scale=1e3, low=-2e3, high=2e3)
     """Error of the reading in the standard atmosphere. [Pa]"""
 
     @property

@@ -90,6 +90,7 @@ def test_a_version_is_shown_as_a_model_file(run: Run, tmp_path: Path) -> None:
     assert document["effects"][-1] == {
         "name": "coulomb_friction",
         "magnitude_N": FRICTION,
+        "distance": 0.0,
     }
     assert document["provenance"]["recording"]["name"] == "cycles.csv"
 
@@ -102,6 +103,11 @@ def test_versions_are_compared(run: Run) -> None:
             "path": "effects.coulomb_friction.magnitude_N",
             "before": None,
             "after": FRICTION,
+        },
+        {
+            "path": "effects.coulomb_friction.distance",
+            "before": None,
+            "after": 0.0,
         },
     ]
     assert "effects.coulomb_friction.magnitude_N" in run("model", "diff", "0", "1")

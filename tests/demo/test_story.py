@@ -20,7 +20,7 @@ def test_what_is_hidden_is_found_added_and_shown(tmp_path: Path) -> None:
         program="0.1.0",
         now=NOON,
         progress=lambda _what, share: told.append(share),
-        step=STEP,
+        step=STEP / 2,
     )
     folder = tmp_path / "new" / "folder"
     said = json.loads((folder / "diagnosis.json").read_text())

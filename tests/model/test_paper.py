@@ -111,7 +111,9 @@ def test_a_free_muscle_stops_where_the_published_table_says(
     for (effects, direction), contraction in zip(VARIANTS, published, strict=True):
         static = StaticMuscle(muscle, effects)
 
-        def pull(h: float, static: StaticMuscle = static, way: int = direction) -> Real:
-            return static.force(megapascal * 1e6, h, way)
+        def pull(
+            h: float, static: StaticMuscle = static, way: int = direction
+        ) -> float:
+            return float(static.force(megapascal * 1e6, h, way))
 
         assert brentq(pull, 0.0, 0.36) == pytest.approx(contraction, abs=5e-5)

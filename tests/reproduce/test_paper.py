@@ -13,7 +13,7 @@ def test_a_free_muscle_does_not_pull(
 ) -> None:
     paper = Paper(chain.muscle)
     full = paper.full()
-    expected = brentq(lambda h: full.force(pressure, h, direction), 0.0, 0.362)
+    expected = brentq(lambda h: float(full.force(pressure, h, direction)), 0.0, 0.362)
     found = paper.free_contraction(full, pressure, direction)
     assert found == pytest.approx(expected, abs=1e-11)
 

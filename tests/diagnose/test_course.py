@@ -1,0 +1,218 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.course import Course, alike, courses, travel
+from gripperd.diagnose.recording import Recording, Run
+from gripperd.model.track import Array
+from tests.diagnose.sweep import noise, run, triangle
+
+REST_LENGTH = 0.25
+SIZE = 401
+CORNER = SIZE // 2
+WAY = 0.2 * (1.0 - np.abs(np.linspace(-1.0, 1.0, SIZE)))
+
+
+def _cut(*runs: Run) -> tuple[Course, ...]:
+    return courses(Recording("r", "0" * 64, runs), REST_LENGTH)[0]
+
+
+def _cycled(contraction: Array, std: float = 2e-4, seed: int = 1) -> Course:
+    size = contraction.size
+    (course,) = _cut(
+        run(
+            pressure=300e3 + noise(size, 1e3, seed + 1),
+            contraction=contraction + noise(size, std, seed),
+        )
+    )
+    return course
+
+
+def _after(run: Run, start: float) -> Run:
+    return Run(run.name, {**run.columns, "time": run.columns["time"] + start})
+
+
+@pytest.mark.parametrize("std", [0.0, 2e-4, 5e-4])
+def test_the_reversal_lies_at_the_corner(std: float) -> None:
+    direction = _cycled(WAY, std).direction
+    np.testing.assert_array_equal(direction[5 : CORNER - 4], 1.0)
+    np.testing.assert_array_equal(direction[CORNER + 5 :], -1.0)
+
+
+def test_noise_alone_does_not_turn_the_travel() -> None:
+    for seed in range(5):
+        direction = _cycled(WAY, 5e-4, seed).direction
+        assert np.count_nonzero(np.diff(direction[direction != 0])) == 1
+
+
+def test_a_muscle_that_is_held_does_not_travel() -> None:
+    course = _cycled(np.full(SIZE, 0.1), 5e-4)
+    assert not course.direction.any()
+    assert np.ptp(course.level("contraction")) == 0
+
+
+def test_at_rest_the_direction_is_kept() -> None:
+    way = np.interp(np.arange(SIZE), [0, 100, 300, 400], [0.0, 0.1, 0.1, 0.0])
+    np.testing.assert_array_equal(_cycled(way).direction[10:297], 1.0)
+
+
+def test_without_contraction_there_is_no_direction() -> None:
+    (course,) = _cut(run(pressure=triangle(), force=triangle()))
+    assert not course.direction.any()
+
+
+def test_travel_turns_where_it_turned_once_it_has_gone_far_enough() -> None:
+    way = np.array([0.0, 2.0, 4.0, 3.5, 5.0, 6.0, 4.0, 2.0, 0.0])
+    signs = travel(way, 1.0)
+    np.testing.assert_array_equal(signs, [0, 1, 1, 1, 1, 1, -1, -1, -1])
+
+
+def test_it_is_told_afterwards_that_it_had_turned() -> None:
+    way = np.array([0.0, 1.0, 2.0, 3.0, 2.6, 2.2, 1.8, 1.4])
+    np.testing.assert_array_equal(travel(way, 1.0), [0, 1, 1, 1, -1, -1, -1, -1])
+
+
+def test_between_reversals_a_contraction_has_no_wiggle() -> None:
+    course = _cycled(WAY, 5e-4)
+    steps = np.diff(course.level("contraction"))
+    assert (steps[: CORNER - 5] >= 0).all()
+    assert (steps[CORNER + 5 :] <= 0).all()
+
+
+def test_a_smoothed_column_is_nearer_to_the_truth() -> None:
+    course = _cycled(WAY, 5e-4)
+    errors = [
+        np.std(column - WAY)
+        for column in (course.level("contraction"), course.column("contraction"))
+    ]
+    assert errors[0] < 0.5 * errors[1]
+
+
+def test_pressure_keeps_the_corner_of_its_command() -> None:
+    command = triangle(SIZE, 0.0, 500e3)
+    (course,) = _cut(
+        run(
+            current=0.004 + 0.016 * command / 500e3, pressure=command + noise(SIZE, 2e3)
+        )
+    )
+    assert course.level("pressure")[CORNER] == pytest.approx(500e3, abs=1e3)
+
+
+def test_a_length_becomes_a_contraction() -> None:
+    (course,) = _cut(run(length=REST_LENGTH * (1 - WAY)))
+    np.testing.assert_allclose(course.column("contraction"), WAY, atol=1e-12)
+
+
+def test_what_was_not_measured_is_not_a_number() -> None:
+    course = _cycled(WAY)
+    assert np.isnan(course.column("force")).all()
+    assert np.isnan(course.level("force")).all()
+
+
+def test_a_pause_cuts_a_run_in_two() -> None:
+    time = np.concatenate([0.1 * np.arange(100), 60.0 + 0.1 * np.arange(50)])
+    first, second = _cut(run("x", time=time, pressure=noise(150, 1e3)))
+    assert (first.run, len(first), second.run, len(second)) == ("x#1", 100, "x#2", 50)
+    assert second.time[0] == 60.0
+    assert second.step[0] == 0.0
+
+
+def test_a_run_without_a_pause_keeps_its_name() -> None:
+    (course,) = _cut(run("x", pressure=noise(100, 1e3)))
+    assert course.run == "x"
+
+
+def test_inflations_are_counted_when_they_end() -> None:
+    twice = np.concatenate([triangle(100, 0.0), triangle(100, 0.0)])
+    first, second = _cut(
+        run("x", pressure=twice), _after(run("y", pressure=twice), 100.0)
+    )
+    assert (first.cycle[0], first.cycle[50], first.cycle[130]) == (0, 0, 1)
+    # One ended inside the first run, one with it; the second run begins at two.
+    assert (first.cycle[-1], second.cycle[0], second.cycle[-1]) == (2, 2, 4)
+
+
+def test_a_run_that_ends_inflated_ends_an_inflation() -> None:
+    up = np.linspace(0.0, 500e3, 100)
+    held = np.full(100, 400e3)
+    first, second = _cut(run("x", pressure=up), _after(run("y", pressure=held), 100.0))
+    assert (first.cycle[-1], second.cycle[0]) == (0, 1)
+
+
+def _row(*contractions: float) -> list[float]:
+    runs = [
+        _after(
+            run(
+                str(place),
+                pressure=triangle() + noise(400, 1e3, place),
+                contraction=np.full(400, contraction),
+            ),
+            100.0 * place,
+        )
+        for place, contraction in enumerate(contractions)
+    ]
+    return [float(course.repeat[0]) for course in _cut(*runs)]
+
+
+def test_repeats_in_an_unbroken_row_are_counted() -> None:
+    np.testing.assert_array_equal(
+        _row(0.0, 0.1, 0.1, 0.1, 0.0), [np.nan, 0, 1, 2, np.nan]
+    )
+
+
+def test_a_single_repeat_is_no_row() -> None:
+    assert np.isnan(_row(0.1, 0.1, 0.0)).all()
+
+
+def test_sweeps_are_alike_when_they_ask_the_same() -> None:
+    one = run(pressure=triangle(), contraction=np.full(400, 0.1), force=triangle())
+    other = run(pressure=triangle() + 5e3, contraction=np.full(400, 0.1), force=WAY)
+    assert alike(one, other)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        pytest.param(
+            run(pressure=triangle(), contraction=np.full(400, 0.15)), id="length"
+        ),
+        pytest.param(
+            run(pressure=triangle(high=400e3), contraction=np.full(400, 0.1)),
+            id="pressure",
+        ),
+        pytest.param(
+            run(pressure=triangle(200), contraction=np.full(200, 0.1)), id="duration"
+        ),
+        pytest.param(run(pressure=triangle()), id="columns"),
+    ],
+)
+def test_sweeps_that_differ_are_not_alike(other: Run) -> None:
+    assert not alike(run(pressure=triangle(), contraction=np.full(400, 0.1)), other)
+
+
+def test_stillness_is_the_time_since_the_command_moved() -> None:
+    current = np.repeat([0.004, 0.012, 0.012, 0.008], 50)
+    (course,) = _cut(run(current=current, pressure=noise(200, 1e3)))
+    assert course.still[49] == pytest.approx(4.9)
+    assert course.still[50] == 0.0
+    assert course.still[149] == pytest.approx(9.9)
+    assert course.still[150] == 0.0
+
+
+def test_a_stated_noise_is_a_lower_limit() -> None:
+    runs = (run(pressure=triangle() + noise(400, 1e3)),)
+    stated = Recording("r", "0" * 64, runs, noise={"pressure": 5e3})
+    plain = courses(Recording("r", "0" * 64, runs), REST_LENGTH)[1]["pressure"].std
+    assert plain == pytest.approx(1e3, rel=0.2)
+    assert courses(stated, REST_LENGTH)[1]["pressure"].std == 5e3
+
+
+def test_sweeps_come_in_the_order_of_the_recording() -> None:
+    runs = [
+        _after(run(name, pressure=triangle()), 100.0 * n)
+        for n, name in enumerate("xyz")
+    ]
+    cut = _cut(*runs)
+    assert [course.run for course in cut] == ["x", "y", "z"]
+    assert all(a.time[-1] < b.time[0] for a, b in pairwise(cut))

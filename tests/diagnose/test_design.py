@@ -1,0 +1,142 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.candidates import WRONG, Candidate, candidates, forms
+from gripperd.diagnose.design import Design, Member, design, problem_prior
+from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects import EFFECTS
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.viscous_friction import ViscousFriction
+from gripperd.model.effect import Signal
+from tests.diagnose.small import MODEL, covariance, recording, rubbing
+
+COLUMNS = frozenset({"time", "current", "pressure", "contraction", "force"})
+BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+
+
+@pytest.fixture
+def start(blank: Problem) -> Point:
+    return Point(np.zeros(len(blank.constants)))
+
+
+def _only(found: Design) -> Member:
+    (member,) = found.members
+    return member
+
+
+def test_products_are_those_of_the_covariance_of_the_noise(
+    blank: Problem, start: Point
+) -> None:
+    found = design(blank, start, [BIAS])
+    member = _only(found)
+    products = found.gram.products.sum(0)[np.ix_(member.columns, member.columns)]
+    moments = found.gram.moments.sum(0)[member.columns]
+    law = blank.noises[Signal.FORCE]
+    expected, moment = 0.0, 0.0
+    for block, time, left in zip(
+        blank.blocks, blank.times, blank.residuals(start), strict=True
+    ):
+        if block.signal is Signal.FORCE:
+            column = np.full(time.size, 5.0 * member.scales[0])
+            seen = np.linalg.solve(covariance(time, law), column)
+            expected += float(seen @ column)
+            moment += float(seen @ left)
+    assert products.item() == pytest.approx(expected, rel=1e-3)
+    assert moments.item() == pytest.approx(moment, rel=1e-3)
+
+
+def test_one_prior_sigma_is_a_few_per_cent_of_full_scale(
+    blank: Problem, start: Point
+) -> None:
+    for candidate in (BIAS, RUB):
+        assert candidate.effect is not None
+        (response,) = blank.responses(start, candidate.effect)
+        prior = problem_prior(blank, response)
+        assert prior is not None
+        force = np.concatenate(
+            [
+                piece
+                for block, piece in zip(blank.blocks, response, strict=True)
+                if block.signal is Signal.FORCE
+            ]
+        )
+        size = prior * np.sqrt(np.mean(force**2)) / blank.full_scale[Signal.FORCE]
+        assert 0.01 < size < 0.1
+
+
+def test_what_leaves_no_trace_is_faint(blank: Problem, start: Point) -> None:
+    jaws = [
+        Candidate("jaw_compliance", one) for one in forms(EFFECTS["jaw_compliance"])
+    ]
+    found = design(blank, start, [*jaws, BIAS])
+    assert found.faint == ("jaw_compliance",)
+    assert _only(found).candidate is BIAS
+
+
+def test_a_name_with_one_visible_form_is_not_faint(
+    blank: Problem, start: Point
+) -> None:
+    unmoved = Candidate("coulomb_friction", ForceSensorBias(bias=5.0))
+    assert design(blank, start, [RUB, unmoved]).faint == ()
+
+
+def test_an_amplitude_that_cannot_be_negative_is_bounded(
+    blank: Problem, start: Point
+) -> None:
+    low = {one.name: design(blank, start, [one]).gram.low[-1] for one in (BIAS, RUB)}
+    assert low["coulomb_friction"] == 0.0
+    assert low["force_sensor_bias"] < -1.0
+
+
+def test_a_constant_stays_within_its_tolerance(blank: Problem, start: Point) -> None:
+    found = design(blank, start, [])
+    high, low = found.gram.high[found.nuisance], found.gram.low[found.nuisance]
+    assert found.nuisance.size == len(blank.constants)
+    assert (high < 4).all()
+    np.testing.assert_array_equal(low, -high)
+
+
+def test_every_amplitude_has_a_column(blank: Problem, start: Point) -> None:
+    rates = Candidate("viscous_friction", ViscousFriction())
+    assert _only(design(blank, start, [rates])).columns.size == 3
+
+
+@pytest.mark.parametrize("size", [12.0, 0.0])
+def test_what_acts_already_is_still_fitted(size: float) -> None:
+    problem = problem_of(recording(rubbing(size)), MODEL, {})
+    start = Point(np.zeros(len(problem.constants)))
+    there = start.with_effect(CoulombFriction(magnitude=12.0))
+    found = design(problem, there, [BIAS])
+    (acting,) = found.acting
+    fit = found.fit()
+    place = fit.columns.tolist().index(int(acting.columns[0]))
+    magnitude = fit.coefficients[place] * acting.scales[0] * 20.0
+    assert magnitude == pytest.approx(size, abs=2.0)
+
+
+def test_what_acts_is_no_candidate(blank: Problem, start: Point) -> None:
+    there = start.with_effect(CoulombFriction(magnitude=12.0))
+    assert _only(design(blank, there, [BIAS, RUB])).candidate is BIAS
+
+
+def test_a_constant_that_is_free_already_is_no_candidate(blank: Problem) -> None:
+    listed, _ = candidates({}, blank, COLUMNS)
+    index = listed[0].constant
+    assert index is not None
+    freed = Point(np.zeros(len(blank.constants)), freed=frozenset({index}))
+    found = design(blank, freed, listed)
+    names = {one.candidate.name for one in found.members}
+    assert WRONG + blank.constants[index].path not in names
+    assert len(names) == len(listed) - 1
+
+
+def test_a_fit_of_what_is_hidden_beats_one_of_what_is_not() -> None:
+    problem = problem_of(recording(rubbing(20.0)), MODEL, {})
+    start = Point(np.zeros(len(problem.constants)))
+    found = design(problem, start, [BIAS, RUB])
+    evidence = {one.candidate.name: found.fit(one).evidence for one in found.members}
+    assert evidence["coulomb_friction"] > evidence["force_sensor_bias"] + 20.0
+    assert evidence["coulomb_friction"] > found.fit().evidence + 20.0

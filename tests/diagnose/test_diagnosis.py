@@ -1,0 +1,176 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.candidates import Candidate, forms
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis, diagnose
+from gripperd.diagnose.document import document
+from gripperd.diagnose.holdout import split
+from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.search import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects import EFFECTS
+from gripperd.errors import InputError
+from gripperd.model import Linkage
+from gripperd.model.effect import Signal
+from tests.diagnose.conftest import FEW
+from tests.diagnose.small import (
+    LINKAGE,
+    MODEL,
+    altered,
+    pinned,
+    recording,
+    threshold,
+    with_jaws,
+    without,
+)
+
+LIBRARY = {name: EFFECTS[name] for name in FEW}
+SHARP = {"threshold_pressure": EFFECTS["threshold_pressure"]}
+
+
+def _names(told: Diagnosis) -> list[str]:
+    return [entry.name for entry in told.named]
+
+
+def _late(told: Recording) -> Diagnosis:
+    return diagnose(told, MODEL, {}, SHARP)
+
+
+def test_where_nothing_is_hidden_the_whole_library_finds_nothing() -> None:
+    told = diagnose(recording(), MODEL, {}, EFFECTS)
+    assert told.verdict is Verdict.NONE
+    assert (told.named, told.where, told.signature) == ((), (), ())
+    assert told.proposal is None
+
+
+def test_a_hidden_threshold_is_named(told: Diagnosis) -> None:
+    assert told.verdict is Verdict.NAMED
+    assert _names(told) == ["threshold_pressure"]
+
+
+def test_the_gap_closes_down_to_the_noise(told: Diagnosis) -> None:
+    gap = told.gaps[Signal.FORCE]
+    assert gap.before > gap.recalibrated > gap.after
+    assert gap.after < 1.3 * gap.noise_floor
+    assert told.main is Signal.FORCE
+
+
+def test_it_tells_where(told: Diagnosis) -> None:
+    assert told.where
+    assert {finding.signal for finding in told.where} == {Signal.FORCE}
+
+
+def test_it_tells_what_could_not_be_seen(told: Diagnosis) -> None:
+    listed = diagnose(without(recording(), "current"), MODEL, {}, EFFECTS).untested
+    assert listed["valve_lag"] == "current not measured"
+    assert "threshold_pressure" not in told.untested
+
+
+def test_the_three_points_are_those_of_the_story(told: Diagnosis) -> None:
+    assert not told.nominal.shifts.any()
+    assert told.recalibrated.effects == ()
+    assert told.recalibrated.shifts.any()
+    assert [effect.name for effect in told.explained.effects] == _names(told)
+
+
+def test_the_same_seed_gives_the_same_document(told: Diagnosis) -> None:
+    again = diagnose(recording(threshold(25.0)), MODEL, {}, LIBRARY)
+    first, second = (
+        document(one, model="reference", program="gripperd") for one in (told, again)
+    )
+    assert first == second
+
+
+def test_the_order_of_sweeps_in_time_does_not_matter_to_a_static_effect(
+    told: Diagnosis,
+) -> None:
+    # The first sweep stays first: only it can show a first inflation.
+    order = ("vented", "c", "b2", "d", "a", "e", "b", "f")
+    other = _late(recording(threshold(25.0), order=order))
+    assert _names(other) == ["threshold_pressure"]
+    known, found = (one.named[0].parameters["pressure"] for one in (told, other))
+    assert found.value == pytest.approx(known.value, abs=2 * known.std)
+
+
+def test_a_recording_without_current_works() -> None:
+    told = _late(without(recording(threshold(25.0)), "current"))
+    assert _names(told) == ["threshold_pressure"]
+    assert set(told.gaps) == {Signal.FORCE}
+
+
+def test_a_recording_of_the_valve_alone_works() -> None:
+    told = _late(without(recording(), "contraction", "force"))
+    assert told.verdict is Verdict.NONE
+    assert set(told.gaps) == {Signal.PRESSURE}
+    assert told.main is Signal.PRESSURE
+
+
+@pytest.mark.parametrize("linkage", [None, LINKAGE])
+def test_a_gripper_may_be_there_or_not(linkage: Linkage | None) -> None:
+    model = replace(MODEL, linkage=linkage)
+    told = diagnose(with_jaws(recording()), model, {}, {})
+    assert told.verdict is Verdict.NONE
+    assert (Signal.OPENING in told.gaps) == (linkage is not None)
+
+
+def test_what_is_left_out_takes_no_part_in_choosing_or_fitting() -> None:
+    problem = pinned(
+        problem_of(recording(threshold(25.0)), MODEL, {}), "muscle.diameter"
+    )
+    parts = split(problem)
+    spoilt = tuple(
+        replace(
+            course, measured={**course.measured, "force": course.column("force") + 99}
+        )
+        if course.run in parts.runs
+        else course
+        for course in problem.courses
+    )
+    listed = [Candidate(e.name, e) for e in forms(SHARP["threshold_pressure"])]
+    found, again = (
+        search(split(one).train, listed, np.random.default_rng(0))
+        for one in (problem, replace(problem, courses=spoilt))
+    )
+    assert again.best.names == found.best.names == ("threshold_pressure",)
+    assert again.best.evidence == found.best.evidence
+    assert again.best.fit.point.effects == found.best.fit.point.effects
+
+
+def test_nor_in_the_noise_it_is_weighed_by() -> None:
+    plain = recording()
+    told = diagnose(plain, MODEL, {}, {})
+    spoilt = diagnose(
+        altered(plain, told.held_out, "force", lambda f: 1.3 * f + 40.0), MODEL, {}, {}
+    )
+    assert spoilt.held_out == told.held_out
+    for signal, noise in told.split.train.noises.items():
+        found = spoilt.split.train.noises[signal]
+        assert found.std == pytest.approx(noise.std, rel=1e-6)
+        assert found.drift == noise.drift
+    shifts = told.recalibrated.shifts
+    assert spoilt.recalibrated.shifts == pytest.approx(shifts, abs=1e-4)
+
+
+def test_its_progress_rises() -> None:
+    said: list[tuple[str, float]] = []
+    diagnose(
+        recording(),
+        MODEL,
+        {},
+        {},
+        progress=lambda what, share: said.append((what, share)),
+    )
+    shares = [share for _, share in said]
+    assert shares == sorted(shares)
+    assert shares[0] > 0.0
+    assert shares[-1] < 1.0
+    assert len({what for what, _ in said}) == len(said)
+
+
+def test_nothing_to_compare_is_an_error_for_a_person() -> None:
+    bare = without(recording(), "pressure", "contraction", "force")
+    with pytest.raises(InputError):
+        diagnose(bare, MODEL, {}, {})

@@ -1,0 +1,162 @@
+import json
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from gripperd.demo.rig import THRESHOLD, Hidden
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.document import document
+from gripperd.diagnose.named import Estimate
+from gripperd.diagnose.next_experiment import Proposal
+from gripperd.diagnose.recording import Contradiction, Kind, Rejection
+from tests.demonstration import example
+
+
+@pytest.fixture(scope="module")
+def creep() -> Diagnosis:
+    return example(Hidden.CREEP)[1]
+
+
+@pytest.fixture(scope="module")
+def threshold() -> Diagnosis:
+    return example(Hidden.THRESHOLD)[1]
+
+
+def written(diagnosis: Diagnosis) -> dict[str, Any]:
+    """The document as a program reads it: strict JSON there and back."""
+    said = document(diagnosis, model="as-drawn", program="0.1.0")
+    read = json.loads(json.dumps(said, allow_nan=False))
+    assert isinstance(read, dict)
+    return read
+
+
+def test_it_has_every_key_of_the_contract(creep: Diagnosis) -> None:
+    said = written(creep)
+    assert said.keys() >= {
+        "verdict", "effects", "where", "gap", "gaps", "next_experiment",
+        "rejected_samples", "unexplained",
+    }  # fmt: skip
+    (effect,) = said["effects"]
+    assert effect.keys() >= {
+        "name", "stage", "statement", "parameters", "equivalents", "evidence",
+    }  # fmt: skip
+    assert effect["evidence"].keys() == {"p_value", "delta_bic", "heldout_gain"}
+    assert said["where"][0].keys() >= {
+        "stage", "signal", "run", "region", "bias", "unit", "p_value",
+    }  # fmt: skip
+    assert said["gap"].keys() == {
+        "signal", "unit", "rmse_before", "rmse_recalibrated", "rmse_after",
+        "noise_floor", "ci95_after", "heldout_runs",
+    }  # fmt: skip
+    assert said["unexplained"].keys() == {"signature", "correction"}
+
+
+def test_what_is_hidden_is_named_with_the_keys_of_a_model_file(
+    creep: Diagnosis,
+) -> None:
+    said = written(creep)
+    assert said["verdict"] == "named"
+    (effect,) = said["effects"]
+    assert (effect["name"], effect["stage"]) == ("creep", "muscle")
+    assert effect["parameters"].keys() == {
+        "fast", "medium", "slow", "time_s", "leverage",
+    }  # fmt: skip
+
+
+def test_numbers_are_in_the_unit_of_their_key(threshold: Diagnosis) -> None:
+    said = written(threshold)
+    (effect,) = said["effects"]
+    # The rig rounds the threshold off; far above it, it is what the pressure loses.
+    value = effect["parameters"]["pressure_kPa"]["value"]
+    assert value == pytest.approx(THRESHOLD / 1e3, rel=0.15)
+    assert (said["gap"]["signal"], said["gap"]["unit"]) == ("force_N", "N")
+    assert said["gaps"]["pressure_kPa"]["unit"] == "kPa"
+    # The sensor's own noise is 1 kPa.
+    assert said["gaps"]["pressure_kPa"]["noise_floor"] == pytest.approx(1, rel=0.25)
+
+
+def test_a_place_lies_inside_the_recording(creep: Diagnosis) -> None:
+    runs = {run.name for run in creep.recording.runs}
+    last = max(float(run.columns["time"][-1]) for run in creep.recording.runs)
+    for place in written(creep)["where"]:
+        assert place["run"] in runs
+        assert place["region"].keys() == {
+            "t_s", "pressure_kPa", "contraction", "direction",
+        }  # fmt: skip
+        low, high = place["region"]["t_s"]
+        assert 0 <= low <= high <= last
+        low, high = place["region"]["pressure_kPa"]
+        assert -10 < low <= high < 520
+
+
+def test_a_wrong_constant_says_what_it_is_instead(creep: Diagnosis) -> None:
+    wrong = replace(
+        creep.named[0],
+        name="parameter:muscle.diameter",
+        stage="-",
+        effect=None,
+        path="muscle.diameter",
+        parameters={"diameter": Estimate(18.6e-3, 0.1e-3)},
+    )
+    (effect,) = written(replace(creep, named=(wrong,)))["effects"]
+    assert effect["name"] == "parameter:muscle.diameter_mm"
+    assert effect["parameters"] == {"diameter_mm": {"value": 18.6, "std": 0.1}}
+    assert effect["statement"] == (
+        "The diameter is 18.6 mm (± 0.1), not 20 mm; correct the model."
+    )
+
+
+def test_rivals_are_told(creep: Diagnosis) -> None:
+    entry = replace(
+        creep.named[0], equivalents=("valve_lag", "parameter:valve.pressure_high")
+    )
+    said = written(replace(creep, verdict=Verdict.AMBIGUOUS, named=(entry,)))
+    assert said["statement"] == (
+        "The model is off, and this recording cannot tell creep from valve lag or a"
+        " wrong pressure at the high end of the valve."
+    )
+    (effect,) = said["effects"]
+    assert effect["equivalents"] == [
+        "valve_lag", "parameter:valve.pressure_high_kPa",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "verdict", [Verdict.UNEXPLAINED, Verdict.NONE, Verdict.UNUSABLE]
+)
+def test_a_verdict_without_a_name_lists_no_effect(
+    creep: Diagnosis, verdict: Verdict
+) -> None:
+    said = written(replace(creep, verdict=verdict))
+    assert said["effects"] == []
+    assert [one["name"] for one in said["nearest"]] == ["creep"]
+
+
+def test_a_number_that_is_not_finite_is_null(creep: Diagnosis) -> None:
+    entry = replace(creep.named[0], p_value=math.nan, delta_bic=-math.inf)
+    (effect,) = written(replace(creep, named=(entry,)))["effects"]
+    assert effect["evidence"]["p_value"] is None
+    assert effect["evidence"]["delta_bic"] is None
+
+
+def test_everything_about_the_recording_is_passed_on(creep: Diagnosis) -> None:
+    recording = replace(
+        creep.recording,
+        rejected=(Rejection("step_0", "current_mA", 3, "under 3.6 mA"),),
+        contradictions=(Contradiction(("a",), ("b",), "force_N", 12.5, "N", 2.0),),
+        remarks=("column lbf is not read",),
+    )
+    plan = Proposal(Kind.ISOBARIC, "separates A from B", "slow", {"t_s": [0, 9]}, 20.0)
+    said = written(replace(creep, recording=recording, proposal=plan))
+    assert said["rejected_samples"] == [
+        {"run": "step_0", "column": "current_mA", "count": 3, "reason": "under 3.6 mA"}
+    ]
+    assert said["contradictions"][0]["difference"] == 12.5
+    assert said["remarks"] == ["column lbf is not read"]
+    assert said["next_experiment"] == {
+        "kind": "isobaric", "why": "separates A from B", "plan": {"t_s": [0, 9]},
+    }  # fmt: skip
+    assert said["recording"]["sha256"] == creep.recording.digest

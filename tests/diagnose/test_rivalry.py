@@ -1,0 +1,105 @@
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.polish import polished
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rivalry import contest
+from gripperd.diagnose.search import Found, Rival, added, search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from tests.diagnose.small import MODEL, pinned, recording, rubbing
+
+
+@dataclass(frozen=True, slots=True)
+class Twin(CoulombFriction):
+    """The same formula by another name: nobody can tell it apart."""
+
+    name: ClassVar[str] = "twin"
+
+
+@dataclass(frozen=True, slots=True)
+class Third(CoulombFriction):
+    """Nor this one."""
+
+    name: ClassVar[str] = "third"
+
+
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+TWIN = Candidate("twin", Twin(magnitude=20.0))
+BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    rubbed = problem_of(recording(rubbing(20.0)), MODEL, {})
+    return pinned(rubbed, "muscle.diameter", "zero.force")
+
+
+def _found(problem: Problem, *listed: Candidate) -> Found:
+    return search(problem, listed, np.random.default_rng(0))
+
+
+def _believing(found: Found, *wrong: Candidate) -> Found:
+    """A search that ended with something else."""
+    point = found.null.fit.point
+    for candidate in wrong:
+        point = added(point, candidate)
+    return replace(found, best=Rival(wrong, polished(found.problem, point)))
+
+
+def test_twins_are_equivalent(problem: Problem) -> None:
+    listed = (RUB, TWIN, BIAS)
+    decided = contest(_found(problem, *listed), listed)
+    (own,) = decided.best.names
+    (others,) = decided.equivalents
+    assert {own, *others} == {"coulomb_friction", "twin"}
+
+
+def test_what_explains_less_is_no_equivalent(problem: Problem) -> None:
+    listed = (RUB, BIAS)
+    decided = contest(_found(problem, *listed), listed)
+    assert decided.best.names == ("coulomb_friction",)
+    assert decided.equivalents == ((),)
+
+
+def test_a_better_rival_takes_the_place_of_a_wrong_choice(problem: Problem) -> None:
+    listed = (RUB, BIAS)
+    wrong = _believing(_found(problem, *listed), BIAS)
+    assert contest(wrong, listed).best.names == ("coulomb_friction",)
+
+
+def test_what_the_rest_has_made_idle_is_dropped(problem: Problem) -> None:
+    listed = (RUB, BIAS)
+    wrong = _believing(_found(problem, *listed), BIAS, RUB)
+    assert contest(wrong, listed).best.names == ("coulomb_friction",)
+
+
+def test_the_best_without_an_effect_is_the_best_of_the_rest(problem: Problem) -> None:
+    found = _found(problem, RUB)
+    decided = contest(found, (RUB,))
+    (without,) = decided.without
+    assert without.names == ()
+    assert without.evidence == pytest.approx(found.null.evidence, abs=0.5)
+    assert decided.best.evidence - without.evidence > found.threshold
+
+
+def test_nothing_found_has_no_rivals(blank: Problem) -> None:
+    listed = (RUB, BIAS)
+    decided = contest(_found(pinned(blank, "zero.force"), *listed), listed)
+    assert (decided.best.names, decided.rivals, decided.without) == ((), (), ())
+
+
+def test_rivals_come_best_first_and_none_beats_the_best(problem: Problem) -> None:
+    third = Candidate("third", Third(magnitude=20.0))
+    listed = (RUB, TWIN, third)
+    decided = contest(_found(problem, *listed), listed)
+    (rivals,) = decided.rivals
+    evidence = [one.evidence for one in rivals]
+    assert len(evidence) == 2
+    assert evidence == sorted(evidence, reverse=True)
+    assert max(evidence) <= decided.best.evidence + 1e-6

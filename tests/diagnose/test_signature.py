@@ -1,0 +1,74 @@
+from dataclasses import replace
+
+import pytest
+
+from gripperd.diagnose.conclude import Conclusion, Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rivalry import Contest
+from gripperd.diagnose.signature import signature
+from gripperd.diagnose.structure import Structure
+from gripperd.model.effect import Signal
+
+
+def _view(
+    along: str, p_value: float, signal: Signal = Signal.FORCE, share: float = 0.1
+) -> Structure:
+    return Structure(signal, along, 10.0, p_value, 0.01, share)
+
+
+@pytest.fixture(scope="module")
+def unnamed(told: Diagnosis) -> Contest:
+    return Contest(told.found.null, (), ())
+
+
+def _words(problem: Problem, best: Contest, *left: Structure) -> tuple[str, ...]:
+    return signature(problem, best, Conclusion(Verdict.UNEXPLAINED, left, 0.42))
+
+
+def test_what_it_depends_on_and_what_not_is_told(
+    blank: Problem, unnamed: Contest
+) -> None:
+    words = _words(
+        blank, unnamed, _view("contraction", 1e-30), _view("temperature", 0.4)
+    )
+    assert "force: depends on contraction" in words
+    assert "force: not on temperature" in words
+
+
+def test_what_is_neither_clear_nor_absent_is_not_told(
+    blank: Problem, unnamed: Contest
+) -> None:
+    words = _words(blank, unnamed, _view("contraction", 1e-30), _view("time", 1e-3))
+    assert not any("time" in word for word in words)
+
+
+def test_a_signal_without_structure_is_not_mentioned(
+    blank: Problem, unnamed: Contest
+) -> None:
+    words = _words(
+        blank,
+        unnamed,
+        _view("contraction", 1e-30),
+        _view("current", 0.5, Signal.PRESSURE),
+    )
+    assert not any(word.startswith("pressure") for word in words)
+
+
+def test_a_single_wave_is_called_so(blank: Problem, unnamed: Contest) -> None:
+    words = _words(blank, unnamed, _view("time", 1e-30, share=0.9))
+    assert "force: depends on time, as one wave" in words
+
+
+def test_the_share_that_is_explained_comes_first(
+    blank: Problem, unnamed: Contest
+) -> None:
+    words = _words(blank, unnamed, _view("time", 1e-30))
+    assert "42%" in words[0]
+    assert not any("nearest" in word for word in words)
+
+
+def test_the_nearest_known_effects_are_named(told: Diagnosis, blank: Problem) -> None:
+    best = replace(told.contest, rivals=((),))
+    words = _words(blank, best, _view("time", 1e-30))
+    assert "nearest known effects: threshold_pressure" in words
