@@ -48,7 +48,7 @@ def test_a_verdict_is_a_success(done: Done) -> None:
 
 
 def test_the_summary_has_effect_place_and_gap(done: Done) -> None:
-    for said in ("time_s", "isobaric_2", "recalibrated", "noise floor", "not testable"):
+    for said in ("time_s", "off by", "recalibrated", "noise floor", "not testable"):
         assert said in done.output
 
 
