@@ -11,6 +11,7 @@ from scipy.optimize import isotonic_regression
 from gripperd.diagnose.noise import Noise, quick_noise
 from gripperd.diagnose.recording import Kind, Recording, Run
 from gripperd.diagnose.smoothing import Smooth, smooth
+from gripperd.diagnose.travel import travel
 from gripperd.model.compiled import compiled
 from gripperd.model.memory import begin, lag
 from gripperd.model.track import Array
@@ -191,31 +192,6 @@ def _directions(contraction: Smooth | None, time: Array) -> Array:
     if np.ptp(contraction.value) < STILL:
         return np.zeros_like(time)
     return travel(contraction.value, TRAVEL)
-
-
-def travel(way: Array, least: float) -> Array:
-    """Sign of travel along a way, turning where it turned; 0 before the first."""
-    return compiled(_travel)(way, least)
-
-
-def _travel(way: Array, least: float) -> Array:
-    out = np.zeros_like(way)
-    sign = 0.0
-    extreme = way[0]
-    turned = 0
-    for i in range(way.size):
-        gone = (way[i] - extreme) * (sign if sign != 0.0 else 1.0)
-        if sign != 0.0 and gone >= 0:
-            extreme, turned = way[i], i
-        elif abs(gone) < 0.2 * least:
-            # Still on the plateau: the way back begins at its end.
-            turned = i
-        elif abs(gone) > least:
-            sign = 1.0 if way[i] > extreme else -1.0
-            out[turned + 1 : i] = sign
-            extreme, turned = way[i], i
-        out[i] = sign
-    return out
 
 
 def _stillness(sweep: Run) -> Array:

@@ -12,12 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripperd.diagnose.course import STILL, TRAVEL, Course, travel
+from gripperd.diagnose.course import STILL, TRAVEL, Course
 from gripperd.diagnose.polish import slopes
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Kind
 from gripperd.diagnose.search import Rival
 from gripperd.diagnose.smoothing import Smooth
+from gripperd.diagnose.travel import travel
 from gripperd.model.track import Array
 
 SAMPLING = 0.1

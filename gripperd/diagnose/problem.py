@@ -17,8 +17,8 @@ from gripperd.diagnose.stages import (
     predictable,
     predicted,
     track_of,
-    usable,
 )
+from gripperd.diagnose.usable import usable
 from gripperd.diagnose.whitening import whitened
 from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
 from gripperd.model.parameter import parameters

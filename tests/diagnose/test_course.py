@@ -3,8 +3,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from gripperd.diagnose.course import Course, alike, courses, travel
+from gripperd.diagnose.course import Course, alike, courses
 from gripperd.diagnose.recording import Recording, Run
+from gripperd.diagnose.travel import travel
 from gripperd.model.track import Array
 from tests.diagnose.sweep import noise, run, triangle
 

@@ -13,8 +13,8 @@ from gripperd.diagnose.stages import (
     predictable,
     predicted,
     track_of,
-    usable,
 )
+from gripperd.diagnose.usable import usable
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.length_datum import LengthDatum

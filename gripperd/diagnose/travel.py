@@ -1,0 +1,31 @@
+"""Direction of travel along a measured way, which noise does not turn round."""
+
+import numpy as np
+
+from gripperd.model.compiled import compiled
+from gripperd.model.track import Array
+
+
+def travel(way: Array, least: float) -> Array:
+    """Sign of travel along a way, turning where it turned; 0 before the first."""
+    return compiled(_travel)(way, least)
+
+
+def _travel(way: Array, least: float) -> Array:
+    out = np.zeros_like(way)
+    sign = 0.0
+    extreme = way[0]
+    turned = 0
+    for i in range(way.size):
+        gone = (way[i] - extreme) * (sign if sign != 0.0 else 1.0)
+        if sign != 0.0 and gone >= 0:
+            extreme, turned = way[i], i
+        elif abs(gone) < 0.2 * least:
+            # Still on the plateau: the way back begins at its end.
+            turned = i
+        elif abs(gone) > least:
+            sign = 1.0 if way[i] > extreme else -1.0
+            out[turned + 1 : i] = sign
+            extreme, turned = way[i], i
+        out[i] = sign
+    return out
