@@ -204,7 +204,6 @@ class _Builder:
         products = np.zeros((runs, m, m))
         moments = np.zeros((runs, m))
         squares = np.zeros(runs)
-        counts = np.zeros(runs)
         for index, block in enumerate(problem.blocks):
             columns = {
                 place: response[index] * prior
@@ -217,6 +216,5 @@ class _Builder:
             products[block.course][np.ix_(places, places)] += z.T @ z
             moments[block.course][places] += z.T @ y
             squares[block.course] += float(y @ y)
-            counts[block.course] += y.size
         low, high = np.array(self._bounds).T
-        return Gram(products, moments, squares, counts, low, high)
+        return Gram(products, moments, squares, low, high)

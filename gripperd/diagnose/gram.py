@@ -43,8 +43,6 @@ class Gram:
     """With the residual, shape ``(runs, m)``."""
     squares: Array
     """Of the residual, shape ``(runs,)``."""
-    counts: Array
-    """Samples, shape ``(runs,)``."""
     low: Array
     """Least coefficient that physics or a tolerance allows, shape ``(m,)``."""
     high: Array
@@ -54,46 +52,18 @@ class Gram:
     def _total(self) -> tuple[Array, Array, float]:
         return self.products.sum(0), self.moments.sum(0), float(self.squares.sum())
 
-    def fit(self, columns: Sequence[int] | Indices, without: int | None = None) -> Fit:
-        """Fit some columns, with or without one run.
+    def fit(self, columns: Sequence[int] | Indices) -> Fit:
+        """Fit some columns.
 
         A coefficient that would leave its bounds stays on them.
         """
         products, moments, square = self._total
-        if without is not None:
-            products = products - self.products[without]
-            moments = moments - self.moments[without]
-            square -= float(self.squares[without])
         kept = np.asarray(columns, dtype=np.intp)
         matrix = products[np.ix_(kept, kept)] + np.eye(kept.size)
         best = bounded(matrix, moments[kept], self.low[kept], self.high[kept])
         cost = square - float((2 * moments[kept] - matrix @ best) @ best)
         volume = float(np.linalg.slogdet(matrix)[1])
         return Fit(kept, best, cost, -0.5 * (cost + volume))
-
-    def tempered(self, temperature: float) -> "Gram":
-        """Give the same with noise louder by the root of a temperature."""
-        return Gram(
-            self.products / temperature, self.moments / temperature,
-            self.squares / temperature, self.counts, self.low, self.high,
-        )  # fmt: skip
-
-    def misfit(self, fit: Fit, run: int) -> float:
-        """Chi² of one run under a fit, without the prior."""
-        c, kept = fit.coefficients, fit.columns
-        products = self.products[run][np.ix_(kept, kept)]
-        return float(
-            self.squares[run] - 2 * c @ self.moments[run][kept] + c @ products @ c
-        )
-
-    def held_out(self, columns: Sequence[int] | Indices) -> Array:
-        """Chi² of each run under the fit to all others, shape ``(runs,)``."""
-        return np.array(
-            [
-                self.misfit(self.fit(columns, without=run), run)
-                for run in range(self.squares.size)
-            ]
-        )
 
 
 def bounded(matrix: Array, moments: Array, low: Array, high: Array) -> Array:

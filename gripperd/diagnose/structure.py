@@ -7,14 +7,15 @@ have a chi-square sum when nothing is left.
 
 References
 ----------
-.. [1] G. Claeskens, N. L. Hjort, "Testing the fit of a parametric function", Ann.
-       Statist. 26(5), 1998 (2003 in print): order selection by cosines.
+.. [1] J. D. Hart, "Nonparametric Smoothing and Lack-of-Fit Tests", Springer, 1997,
+       chapter 7: tests on cosine coefficients.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import chi2
 
 from gripperd.diagnose.problem import Problem
 from gripperd.model.effect import Signal
@@ -140,10 +141,5 @@ def _cells(left: Array, pressure: Array, contraction: Array) -> Array:
 
 
 def chi_square_tail(total: float, count: int) -> float:
-    """Chance that a chi-square with so many degrees of freedom is larger.
-
-    Wilson and Hilferty's normal form, good to a few per cent of the chance.
-    """
-    from scipy.stats import chi2
-
+    """Chance that a chi-square with so many degrees of freedom is larger."""
     return float(chi2.sf(total, count)) if count else 1.0

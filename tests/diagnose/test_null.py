@@ -26,7 +26,6 @@ def _gram(columns: Array, target: Array, low: Array) -> Gram:
         (columns.T @ columns)[None],
         (columns.T @ target)[None],
         np.array([target @ target]),
-        np.array([float(SAMPLES)]),
         low,
         np.full(low.size, np.inf),
     )
