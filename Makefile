@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: run test bench exam exam-peers lint clean
+.PHONY: run test bench faults soak exam exam-peers lint clean
 
 run: $(VENV)/installed
 	$(BIN)/gripperd run
@@ -13,7 +13,15 @@ test: $(VENV)/developing
 	$(BIN)/pytest
 
 bench: $(VENV)/developing
-	$(BIN)/python -m tests.benchmarks
+	$(BIN)/python -m tests.benchmarks $(ONLY)
+
+# Every fault, injected for real, and how long it takes to tell.
+faults: $(VENV)/developing
+	$(BIN)/python -m tests.faults $(ONLY)
+
+# N grasps with mishaps, from the first SEED on, in the time of the simulated rig.
+soak: $(VENV)/developing
+	$(BIN)/python -m tests.soak
 
 # CASES, FAMILY (A, B, both), JOBS, SEED and RESULTS (JSON lines) are variables.
 EXAM = $(if $(CASES),--cases $(CASES)) $(if $(FAMILY),--family $(FAMILY)) \

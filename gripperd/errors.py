@@ -10,6 +10,7 @@
      ├─ Refused             what you ask is not allowed now, or would do harm
      └─ LinkError           no trustworthy answer came over a line
          ├─ LinkLost        there is no connection
+         │   └─ NotConnected    nor was there one to send anything over
          ├─ ReplyTimeout    no reply inside the deadline
          ├─ BadReply        a reply that does not answer the request
          └─ DeviceRefused   the device understood, and said no
@@ -83,6 +84,10 @@ class LinkError(GripperdError, OSError):
 
 class LinkLost(LinkError, ConnectionError):
     """There is no connection; whether the last command arrived is unknown."""
+
+
+class NotConnected(LinkLost):
+    """There was no connection, so nothing was sent: asking again does no harm."""
 
 
 class ReplyTimeout(LinkError, TimeoutError):

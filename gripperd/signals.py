@@ -27,6 +27,8 @@ class Reading:
     quality: Quality = Quality.GOOD
     cause: str = ""
     """Why the quality is not good, for a person."""
+    noise: float | None = None
+    """One sigma of the sensor in SI, where it is known."""
 
     @classmethod
     def bad(cls, cause: str) -> "Reading":
@@ -51,3 +53,7 @@ class Measurement:
     """Distance between the jaws. [m]"""
     grip: Reading = ABSENT
     """Grip force per jaw. [N]"""
+    enable: Reading = ABSENT
+    """External enable: 1 while its contact is closed, 0 while it is open. [-]"""
+    estop: Reading = ABSENT
+    """Emergency stop: 1 while its contact is closed, that is, not pressed. [-]"""

@@ -27,6 +27,7 @@ SI_PER_UNIT = {
     "per_K2": 1.0,
     "per_K": 1.0,
     "N_s": 1.0,
+    "percent": 0.01,
     "kPa": KILO,
     "MPa": MEGA,
     "mA": MILLI,

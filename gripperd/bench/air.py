@@ -24,6 +24,12 @@ class Air:
         self.settled = True
         """Whether both pressures have reached their final values."""
 
+    def leak(self, leak_rate: float, dt: float) -> None:
+        """Lose air from a muscle whose tube is shut, for a time. [1/s, s]."""
+        lost = -self.chamber * expm1(-leak_rate * dt)
+        self.settled = leak_rate * self.chamber < SETTLED
+        self.chamber -= lost
+
     def step(self, target: float, leak_rate: float, dt: float) -> None:
         """Follow the regulator for a time.
 

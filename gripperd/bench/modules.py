@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from gripperd.bench import contacts
 from gripperd.bench.rig import Rig
 from gripperd.protocol.modbus import Read, Refusal, Request, Table, Write
 from gripperd.protocol.modules import InputModule, OutputModule
@@ -11,7 +12,7 @@ class Modules:
     """An output and an input module on one line, wired to the rig.
 
     The valve is on channel 0 of the output module; pressure, opening and grip are on
-    the first channels of the input module.
+    the first channels of the input module, the contacts on those after them.
 
     Parameters
     ----------
@@ -63,7 +64,8 @@ class Modules:
         if request.table is Table.HOLDING:
             codes = [module.range_code] * module.channels
             return _window(codes, module.range_address, request)
-        currents = [*self.rig.read_inputs()]
+        opened = self.rig.plant.faults.opened
+        currents = [*self.rig.read_inputs(), *contacts.currents(opened)]
         currents += [0.0] * (module.channels - len(currents))
         counts = [module.encode(current) for current in currents]
         return _window(counts, module.address, request)

@@ -1,6 +1,7 @@
 """An object that was put between the jaws, and what has become of it."""
 
 from enum import StrEnum
+from math import sqrt
 
 from gripperd.bench.object import BenchObject
 from gripperd.bench.settings import PlantSettings
@@ -34,7 +35,9 @@ class PlacedObject:
     """One object from the moment it is placed: carried, slipping, broken, lost."""
 
     __slots__ = (
+        "_friction",
         "_load",
+        "_pull",
         "_settings",
         "_speed",
         "_steady",
@@ -61,8 +64,33 @@ class PlacedObject:
         self._settings = settings
         self._load = STANDARD_GRAVITY + settings.lift_acceleration
         self._support = 2 * kind.friction / kind.mass
+        self._friction, self._pull = 1.0, 0.0
         self._speed = 0.0
         self._steady = 0.0
+
+    @property
+    def width(self) -> float:
+        """Distance between the pads where they touch a ball that has slid down. [m]."""
+        reach = self.kind.diameter**2 - (2 * self.slid) ** 2
+        return sqrt(max(reach, 0.0))
+
+    def disturb(self, friction: float, pull: float) -> None:
+        """Change what the pads hold it by.
+
+        Parameters
+        ----------
+        friction
+            Share of the friction that is left. [-]
+        pull
+            Downward force besides the weight. [N]
+        """
+        self._friction, self._pull = friction, pull
+
+    @property
+    def _excess(self) -> float:
+        """Acceleration that the friction of both pads leaves, if above 0. [m/s²]."""
+        load = self._load + self._pull / self.kind.mass
+        return load - self._friction * self._support * self.grip
 
     @property
     def at_rest(self) -> bool:
@@ -71,7 +99,7 @@ class PlacedObject:
             case ObjectState.RESTING:
                 return self.grip == 0.0
             case ObjectState.HELD:
-                return self._support * self.grip >= self._load
+                return self._excess <= 0.0
             case ObjectState.SLIPPING:
                 return False
             case ObjectState.LOST:
@@ -94,7 +122,7 @@ class PlacedObject:
         if self.state is ObjectState.RESTING:
             self._await_lift(grip, abs(grip - before), dt)
         elif self.state is not ObjectState.LOST:
-            self._slide(grip, dt)
+            self._slide(dt)
 
     def _await_lift(self, grip: float, change: float, dt: float) -> None:
         steady = grip > 0.0 and change <= STEADY_RATE * grip * dt
@@ -102,9 +130,9 @@ class PlacedObject:
         if self._steady >= self._settings.lift_delay:
             self.state = ObjectState.HELD
 
-    def _slide(self, grip: float, dt: float) -> None:
+    def _slide(self, dt: float) -> None:
         """Coulomb friction on two pads: it slides while ``2 μ N < m (g + a)``."""
-        speed = self._speed + (self._load - self._support * grip) * dt
+        speed = self._speed + self._excess * dt
         if speed <= 0.0:
             self._speed = 0.0
             self.state = ObjectState.HELD

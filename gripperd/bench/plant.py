@@ -17,6 +17,9 @@ from gripperd.model.effect import acts_in_gripper
 from gripperd.model.track import Track
 from gripperd.units import MILLI
 
+BLOCKED = 1e6
+"""Friction that nothing here overcomes. [N]"""
+
 
 class Plant:
     """Regulator, air, muscle, jaws and the object between them, stepped in time.
@@ -84,7 +87,9 @@ class Plant:
     @faults.setter
     def faults(self, faults: BenchFaults) -> None:
         self._faults = faults
-        self._drag = faults.jaw_friction * self._chain.linkage.ratio
+        drag = BLOCKED if faults.jaws_blocked else faults.jaw_friction
+        self._drag = drag * self._chain.linkage.ratio
+        self._disturb()
         self._resume()
 
     @property
@@ -146,6 +151,7 @@ class Plant:
             raise InputError(message)
         self.check_fits(kind)
         self._placed = PlacedObject(kind, self._settings)
+        self._disturb()
         self._jaws.face(kind.diameter, kind.stiffness)
         self._resume()
 
@@ -178,9 +184,12 @@ class Plant:
         air, jaws = self._air, self._jaws
         hidden = self._hidden
         now = self.track(dt) if hidden else None
-        if hidden and now:
+        if hidden and now and not self._faults.valve_stuck:
             self._target = self._within_supply(hidden.pressure(self._wanted, now))
-        air.step(self._target, self._faults.leak_rate, dt)
+        if self._faults.tube_shut:
+            air.leak(self._faults.leak_rate, dt)
+        else:
+            air.step(self._target, self._faults.leak_rate, dt)
         contracting, extending = self._pull.at(air.chamber, self.contraction)
         if hidden and now:
             contracting, extending = hidden.pulls(contracting, extending, now)
@@ -195,10 +204,10 @@ class Plant:
             hidden.settle(self._target, contracting, extending)
         placed = self._placed
         if placed:
-            stiffness = placed.stiffness
+            before = placed.width, placed.stiffness
             placed.step(jaws.grip, dt)
-            if placed.stiffness != stiffness:
-                jaws.face(placed.kind.diameter, placed.stiffness)
+            if (placed.width, placed.stiffness) != before:
+                jaws.face(placed.width, placed.stiffness)
                 return
         self._at_rest = (
             air.settled
@@ -226,6 +235,11 @@ class Plant:
         )
         return self._logbook.track(moment)
 
+    def _disturb(self) -> None:
+        """Let the faults act on what is carried."""
+        if self._placed:
+            self._placed.disturb(self._faults.pad_friction, self._faults.pull)
+
     def _resume(self) -> None:
         """Find out what the regulator is after, and move on."""
         regulator, faults = self._chain.regulator, self._faults
@@ -236,7 +250,8 @@ class Plant:
         if supply is None:
             supply = self._settings.supply_pressure
         self._wanted, self._supply = wanted, supply
-        self._target = self._within_supply(wanted)
+        if not faults.valve_stuck:
+            self._target = self._within_supply(wanted)
         self._at_rest = False
 
     def _within_supply(self, pressure: float) -> float:

@@ -1,11 +1,12 @@
 """Commands that start the daemon or parts of it, and check its configuration."""
 
+import atexit
 import json
 import logging
 import os
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, TextIO, cast
 
 import structlog
 import typer
@@ -13,6 +14,12 @@ from rich.console import Console
 
 from gripperd.cli.app import ConfigFile, app
 from gripperd.errors import InputError
+
+if TYPE_CHECKING:
+    from gripperd.cli.spool import Spool
+
+LAST_WORDS = 0.5
+"""How long the end of a process waits for its log to be read. [s]"""
 
 config_app = typer.Typer(help="Look at the configuration.", no_args_is_help=True)
 app.add_typer(config_app, name="config")
@@ -65,8 +72,10 @@ def control(config: ConfigFile = None, bench: Bench = None) -> None:
     from gripperd.store import with_active_models
 
     settings = with_active_models(load_settings(config))
-    _log_to_stderr()
-    processes.run_process(processes.control(settings, _host_and_port("--bench", bench)))
+    spool = _log_to_stderr()
+    address = _host_and_port("--bench", bench)
+    control = processes.control(settings, address, lambda: spool.dropped)
+    processes.run_process(control)
 
 
 @app.command()
@@ -127,8 +136,12 @@ def _host_and_port(option: str, address: str | None) -> tuple[str, int] | None:
     return host.removeprefix("[").removesuffix("]"), int(port)
 
 
-def _log_to_stderr() -> None:
+def _log_to_stderr() -> "Spool":
     """Plain lines; on a terminal in colour, without time stamps in the journal."""
+    from gripperd.cli.spool import Spool
+
+    spool = Spool(sys.stderr.fileno())
+    atexit.register(spool.close, LAST_WORDS)
     stamp = [structlog.processors.TimeStamper(fmt="%H:%M:%S")]
     structlog.configure(
         processors=[
@@ -138,5 +151,6 @@ def _log_to_stderr() -> None:
             structlog.dev.ConsoleRenderer(colors=sys.stderr.isatty()),
         ],
         wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
-        logger_factory=structlog.PrintLoggerFactory(sys.stderr),
+        logger_factory=structlog.WriteLoggerFactory(cast("TextIO", spool)),
     )
+    return spool

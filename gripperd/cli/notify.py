@@ -13,6 +13,9 @@ from pathlib import Path
 from gripperd.errors import ConfigError
 
 VARIABLE = "NOTIFY_SOCKET"
+REPORT_WITHIN = 5.0
+"""How long a report waits for a listener that has no time; a sign of life never does.
+[s]"""
 
 
 def notify(**facts: str | int) -> None:
@@ -22,6 +25,11 @@ def notify(**facts: str | int) -> None:
     ----------
     facts
         Such as ``READY=1`` or ``STATUS="holding"``.
+
+    Raises
+    ------
+    OSError
+        Nobody listens there, or has no time to.
     """
     address = os.environ.get(VARIABLE)
     if not address:
@@ -31,6 +39,8 @@ def notify(**facts: str | int) -> None:
         address = "\0" + address[1:]
     message = "\n".join(f"{name}={value}" for name, value in facts.items())
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
+        # A listener that is stalled must not stall who reports to it.
+        sender.settimeout(0.0 if "WATCHDOG" in facts else REPORT_WITHIN)
         sender.connect(address)
         sender.sendall(message.encode())
 

@@ -8,11 +8,13 @@ import ctypes
 import os
 import random
 import signal
+import threading
 import time
 import uuid
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from contextlib import AsyncExitStack
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +27,7 @@ from gripperd.bench.sensors import Channel, Sensor, SensorSettings
 from gripperd.bench.server import serve_bench
 from gripperd.cli.notify import notify
 from gripperd.cli.supervisor import SUPERVISED, stop_requested
+from gripperd.cli.watchdog import Watchdog, longest_silence
 from gripperd.config import BenchBus, GripperSettings, Settings
 from gripperd.control.gripper import Gripper
 from gripperd.control.loop import Loop
@@ -113,6 +116,8 @@ async def bench(settings: Settings, address: tuple[str, int] | None) -> None:
         (gripper.output.module, gripper.output.unit),
         (gripper.input.module, gripper.input.unit),
     )
+    # It stands for hardware, which does not wait for a processor.
+    _go_real_time()
     host, port = address or (settings.bench.host, settings.bench.port)
     async with serve_bench(modules, host, port) as server:
         desk = BenchDesk(server, rig)
@@ -122,10 +127,25 @@ async def bench(settings: Settings, address: tuple[str, int] | None) -> None:
             await asyncio.Event().wait()
 
 
-async def control(settings: Settings, bench_address: tuple[str, int] | None) -> None:
-    """Control every gripper."""
+async def control(
+    settings: Settings,
+    bench_address: tuple[str, int] | None,
+    unlogged: Callable[[], int] = lambda: 0,
+) -> None:
+    """Control every gripper.
+
+    Parameters
+    ----------
+    settings
+        What it is told to do.
+    bench_address
+        Where the bench is, if not where the settings say.
+    unlogged
+        Tells how many log lines were dropped so far.
+    """
     real_time = _go_real_time()
     loops: dict[str, Loop] = {}
+    watchdog = Watchdog(settings.grippers, longest_silence())
     async with AsyncExitStack() as open_things:
         buses: dict[TcpAddress, Bus] = {}
         for name, gripper in settings.grippers.items():
@@ -140,11 +160,15 @@ async def control(settings: Settings, bench_address: tuple[str, int] | None) -> 
                     gripper.chain,
                     auto_enable=gripper.auto_enable,
                     identify=lambda: uuid.uuid4().hex,
+                    monitoring=gripper.monitoring,
                 ),
                 AnalogRig(buses[address], gripper.output, gripper.input),
                 period=1 / gripper.rate,
+                advanced=partial(watchdog.advanced, name),
             )
-        desk = ControlDesk(loops, real_time=real_time, started_at=time.time())
+        desk = ControlDesk(
+            loops, real_time=real_time, started_at=time.time(), unlogged=unlogged
+        )
         await open_things.enter_async_context(
             serve(control_socket(settings), desk.respond)
         )
@@ -187,10 +211,16 @@ def _sensors(gripper: GripperSettings, noise: float) -> SensorSettings:
 
 
 def _go_real_time() -> bool:
-    """Ask for real-time priority; tell whether it was granted."""
+    """Ask for real-time priority; tell whether it was granted.
+
+    For every thread: one without it that is interrupted while it has the interpreter's
+    lock would stop those that have it.
+    """
+    priority = os.sched_param(REAL_TIME_PRIORITY)
     try:
-        priority = os.sched_param(REAL_TIME_PRIORITY)
-        os.sched_setscheduler(0, os.SCHED_FIFO, priority)
+        for thread in threading.enumerate():
+            if thread.native_id is not None:
+                os.sched_setscheduler(thread.native_id, os.SCHED_FIFO, priority)
     except OSError:
         return False
     return True

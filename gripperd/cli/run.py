@@ -14,12 +14,18 @@ from rich.console import Console
 from gripperd.cli.notify import notify
 from gripperd.cli.processes import simulated
 from gripperd.cli.supervisor import Child, StartFailed, stop_requested, supervise
+from gripperd.cli.watchdog import feed
 from gripperd.config import Settings
 from gripperd.errors import ConfigError, Refused
 from gripperd.link.folder import private_folder
 
 LONGEST_SOCKET = "service.notify"
 """The longest name among the sockets of the processes."""
+CONTROL_SILENCE = 2.0
+"""A control loop that stands still for so long is started anew: many hundred periods,
+and far above the longest pause of a loaded machine. [s]"""
+SERVICE_SILENCE = 15.0
+"""The service may be busy; nothing that holds depends on it. [s]"""
 
 
 def run(settings: Settings, console: Console) -> int:
@@ -54,8 +60,8 @@ async def _start_and_watch(
     folder, common = settings.runtime_dir, ["--config", str(settings.source)]
     bench_address: list[str] = []
 
-    async def start(name: str, *arguments: str) -> Child:
-        child = Child(name, [name, *common, *arguments], folder)
+    async def start(name: str, *arguments: str, silence: float | None = None) -> Child:
+        child = Child(name, [name, *common, *arguments], folder, silence)
         children.append(child)
         await child.start()
         return child
@@ -68,9 +74,11 @@ async def _start_and_watch(
         console.print(
             f"bench    Modbus TCP on {bench.facts['ADDRESS']}, simulated: no hardware"
         )
-    await start("control", *bench_address)
+    control = await start("control", *bench_address, silence=CONTROL_SILENCE)
+    # The unit's own watchdog is fed by what matters.
+    control.alive = feed
     console.print(f"control  {', '.join(settings.grippers)}")
-    service = await start("service")
+    service = await start("service", silence=SERVICE_SILENCE)
     url = service.facts["ADDRESS"]
     service.arguments += ["--http", url.removeprefix("http://")]
     console.print(f"service  {url}   try {url}/v1/grippers, {url}/docs")

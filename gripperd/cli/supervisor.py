@@ -1,4 +1,4 @@
-"""Starts the processes of ``gripperd run`` in order, and again when one dies.
+"""Starts the processes of ``gripperd run`` in order, and again when one dies or stalls.
 
 The grip does not depend on this process, nor on the service: the output module keeps
 the last current, and a control process that starts anew adopts it.
@@ -10,7 +10,7 @@ import signal
 import socket
 import sys
 from asyncio.subprocess import Process
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import repeat
@@ -19,6 +19,7 @@ from pathlib import Path
 import structlog
 
 from gripperd.cli.notify import VARIABLE, listen, parse
+from gripperd.cli.watchdog import INTERVAL, OWNER
 from gripperd.errors import GripperdError
 
 READY_WITHIN = 30.0
@@ -50,9 +51,14 @@ class Child:
     arguments: list[str]
     folder: Path
     """Where its readiness socket lives."""
+    silence: float | None = None
+    """After this time without a sign of life it is killed; None is never. [s]"""
+    alive: Callable[[], None] = lambda: None
+    """Called on every sign of life, and on every attempt at a new one."""
     process: Process | None = None
     facts: Mapping[str, str] = field(default_factory=dict)
     """What it reported when it became ready."""
+    _receiver: socket.socket | None = None
 
     async def start(self) -> None:
         """Start it and wait until it is ready.
@@ -64,26 +70,44 @@ class Child:
         ConfigError
             It cannot report.
         """
-        address = self.folder / f"{self.name}.notify"
-        receiver = listen(address)
+        self.alive()
+        self._close()
+        self._receiver = listen(self._address)
         try:
             self.process = await asyncio.create_subprocess_exec(
                 sys.executable,
                 "-m",
                 "gripperd",
                 *self.arguments,
-                env=os.environ | {VARIABLE: str(address), SUPERVISED: str(os.getpid())},
+                env=self._environment(),
                 start_new_session=True,
             )
-            self.facts = await self._ready(receiver)
-        finally:
-            receiver.close()
-            address.unlink(missing_ok=True)
+            self.facts = await self._ready(self._receiver)
+        except BaseException:
+            self._close()
+            raise
+
+    @property
+    def _address(self) -> Path:
+        return self.folder / f"{self.name}.notify"
+
+    def _environment(self) -> dict[str, str]:
+        ours = {VARIABLE: str(self._address), SUPERVISED: str(os.getpid())}
+        if self.silence is not None:
+            ours[INTERVAL] = str(round(self.silence * 1e6))
+        # Who watches this process does not watch its children.
+        others = {INTERVAL, OWNER}
+        return {k: v for k, v in os.environ.items() if k not in others} | ours
+
+    def _close(self) -> None:
+        if self._receiver is not None:
+            self._receiver.close()
+            self._receiver = None
+            self._address.unlink(missing_ok=True)
 
     async def _ready(self, receiver: socket.socket) -> Mapping[str, str]:
         assert self.process is not None
-        loop = asyncio.get_running_loop()
-        report = asyncio.create_task(loop.sock_recv(receiver, 4096))
+        report = asyncio.create_task(_readiness(receiver))
         death = asyncio.create_task(self.process.wait())
         done, pending = await asyncio.wait(
             {report, death},
@@ -93,7 +117,7 @@ class Child:
         for task in pending:
             task.cancel()
         if report in done:
-            return parse(report.result())
+            return report.result()
         if death in done:
             message = f"{self.name} ended at its start with status {death.result()}"
             raise StartFailed(message, death.result())
@@ -102,12 +126,40 @@ class Child:
         raise StartFailed(message, 1)
 
     async def died(self) -> int:
-        """Status once it has ended."""
+        """Status once it has ended; a stalled one is made to."""
         assert self.process is not None
-        return await self.process.wait()
+        watch = asyncio.create_task(self._watch())
+        try:
+            return await self.process.wait()
+        finally:
+            watch.cancel()
+
+    async def _watch(self) -> None:
+        """Wait for signs of life, and kill it when there are none."""
+        assert self.process is not None
+        while await self._sign():
+            self.alive()
+        log.error("process is stalled", process=self.name, silent_s=self.silence)
+        with suppress(ProcessLookupError):
+            self.process.kill()
+
+    async def _sign(self) -> bool:
+        """Whether it gives a sign of life in time."""
+        receiver = self._receiver
+        assert receiver is not None
+        try:
+            async with asyncio.timeout(self.silence):
+                await asyncio.get_running_loop().sock_recv(receiver, 4096)
+        except TimeoutError:
+            # If it was this process that stalled, the signs have piled up.
+            with suppress(BlockingIOError):
+                return bool(receiver.recv(4096))
+            return False
+        return True
 
     async def end(self) -> None:
         """Ask it to end, and insist."""
+        self._close()
         if self.process is None or self.process.returncode is not None:
             return
         with suppress(ProcessLookupError):
@@ -119,6 +171,14 @@ class Child:
                 log.warning("killed", process=self.name)
                 self.process.kill()
                 await self.process.wait()
+
+
+async def _readiness(receiver: socket.socket) -> Mapping[str, str]:
+    """What a process reports when it is ready; signs of life may come before."""
+    loop = asyncio.get_running_loop()
+    while "READY" not in (facts := parse(await loop.sock_recv(receiver, 4096))):
+        pass
+    return facts
 
 
 async def supervise(children: list[Child]) -> None:

@@ -21,13 +21,13 @@ from gripperd.config.settings import (
     KEYLESS,
     BenchBus,
     BenchSettings,
-    FailMode,
     GripperSettings,
     Http,
     Settings,
     is_loopback,
 )
 from gripperd.config.settings_file import load_settings
+from gripperd.control.budget import FailMode
 
 __all__ = [
     "KEYLESS",

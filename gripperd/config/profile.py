@@ -62,6 +62,30 @@ class GraspSection(Section):
     ramp_mA_per_s: float = Field(gt=0, le=1000)
 
 
+class HoldSection(Section):
+    """What may be done about the force while it is held."""
+
+    compensate: bool = False
+    most_correction_percent: float = Field(
+        default=10.0, gt=0, le=20, alias="most_percent"
+    )
+
+
+UNCORRECTED = HoldSection().model_dump(by_alias=True)
+"""What a file that says nothing of it means; so written profiles say nothing either."""
+
+
+class TighterSection(Section):
+    """What is watched more closely than the settings of the gripper say."""
+
+    slip_closing_mm: float | None = Field(default=None, gt=0, le=20)
+    force_drift_percent: float | None = Field(default=None, gt=0, le=100)
+
+
+UNTIGHTENED = TighterSection().model_dump()
+"""What a file that says nothing of it means."""
+
+
 class ProfileSection(Section):
     """The whole file."""
 
@@ -76,6 +100,8 @@ class ProfileSection(Section):
     limits: LimitsSection
     margins: MarginsSection
     grasp: GraspSection
+    hold: HoldSection = HoldSection()
+    monitors: TighterSection = TighterSection()
 
     @field_validator("size_tolerance_mm")
     @classmethod
@@ -141,7 +167,12 @@ def readable_profiles(
 
 def profile_document(profile: Profile) -> dict[str, object]:
     """Write a profile the way files and requests have it, units restored."""
-    return plain(ProfileSection, profile)
+    written = plain(ProfileSection, profile)
+    if written["hold"] == UNCORRECTED:
+        del written["hold"]
+    if written["monitors"] == UNTIGHTENED:
+        del written["monitors"]
+    return written
 
 
 def _profile(document: Document) -> Profile:
@@ -151,6 +182,7 @@ def _profile(document: Document) -> Profile:
         version=section.version,
         source=section.limits.source,
         mode=section.grasp.mode,
+        compensate=section.hold.compensate,
         **numbers(section),
     )
 

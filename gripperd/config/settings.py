@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from ipaddress import ip_address
 from pathlib import Path
 
 from gripperd.config.model import ModelFile
+from gripperd.control.budget import FailMode
+from gripperd.control.monitors.policy import Cause, Monitoring, Policy
 from gripperd.control.profile import Profile
 from gripperd.drivers.analog import InputWiring, OutputWiring
 from gripperd.drivers.bus import TcpAddress
@@ -30,17 +31,6 @@ def is_loopback(host: str) -> bool:
         return ip_address(host).is_loopback
     except ValueError:
         return False
-
-
-class FailMode(StrEnum):
-    """What the hardware does when power or air is lost; no software can change it."""
-
-    VENT = "vent"
-    """The muscle loses its pressure: the object is released."""
-    FREEZE = "freeze"
-    """The pressure is trapped: the grip decays with the leaks."""
-    SPRING_CLOSE = "spring_close"
-    """A spring closes the jaws: the object stays held."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,10 +73,24 @@ class GripperSettings:
     chain: Chain
     """The same, from valve current to grip force."""
     fail_mode: FailMode
+    worst_leak: float
+    """Of a muscle whose air is trapped, where its model has no leak. [1/s]"""
+    policies: Mapping[Cause, Policy]
+    """What is watched, and what is done about it."""
     auto_enable: bool
     """Enable after a start without being asked."""
     rate: float
     """Samples per second of the control loop. [Hz]"""
+
+    @property
+    def monitoring(self) -> Monitoring:
+        """How it is watched."""
+        sensors = self.input.sensors if self.input else {}
+        spans = {
+            name: abs(wiring.scale.value_high - wiring.scale.value_low)
+            for name, wiring in sensors.items()
+        }
+        return Monitoring(policies=self.policies, spans=spans)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,15 +12,20 @@ from typing import Annotated
 from pydantic import Field, PlainValidator, ValidationInfo, field_validator
 
 from gripperd.config.document import read_document
+from gripperd.config.interlocks import (
+    InterlocksSection,
+    check_bench_contacts,
+    check_contacts,
+)
 from gripperd.config.location import shipped
 from gripperd.config.model import ModelFile, load_model
+from gripperd.config.monitors import MonitorsSection
 from gripperd.config.profile import load_profiles
 from gripperd.config.section import Name, Section
 from gripperd.config.settings import (
     KEYLESS,
     BenchBus,
     BenchSettings,
-    FailMode,
     GripperSettings,
     Http,
     Settings,
@@ -40,6 +45,7 @@ from gripperd.config.wiring import (
     check_driven,
 )
 from gripperd.config.wording import shown
+from gripperd.control.budget import WORST_LEAK, FailMode
 from gripperd.control.profile import Profile
 
 
@@ -95,6 +101,9 @@ class GripperSection(Section):
     input: InputSection | None = Field(default=None, validate_default=True)
     model: Annotated[ModelFile, PlainValidator(_model)]
     fail_mode: Annotated[FailMode, Field(strict=False)]
+    worst_leak_per_s: float = Field(default=WORST_LEAK, ge=0, le=100)
+    interlocks: InterlocksSection = InterlocksSection()
+    monitors: MonitorsSection = MonitorsSection()
     auto_enable: bool = False
     rate_Hz: float = Field(default=100.0, ge=1, le=500)
 
@@ -116,6 +125,17 @@ class GripperSection(Section):
             check_bench_input(inputs)
         return inputs
 
+    @field_validator("interlocks")
+    @classmethod
+    def _have_channels(
+        cls, interlocks: InterlocksSection, read: ValidationInfo
+    ) -> InterlocksSection:
+        if "input" in read.data:
+            check_contacts(interlocks, read.data["input"])
+        if read.data.get("bus") == BENCH:
+            check_bench_contacts(interlocks)
+        return interlocks
+
     @field_validator("model")
     @classmethod
     def _can_be_driven(cls, model: ModelFile, read: ValidationInfo) -> ModelFile:
@@ -131,10 +151,14 @@ class GripperSection(Section):
             name=name,
             bus=tcp or BenchBus(),
             output=self.output.wiring,
-            input=self.input.wiring if self.input else None,
+            input=self.interlocks.with_contacts(
+                self.input.wiring if self.input else None
+            ),
             model=self.model,
             chain=self.model.chain(),
             fail_mode=self.fail_mode,
+            worst_leak=self.worst_leak_per_s,
+            policies=self.monitors.policies,
             auto_enable=self.auto_enable,
             rate=self.rate_Hz,
         )

@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeAlias
 
 from gripperd.control.profile import Mode, Profile
-from gripperd.errors import GripperdError
+from gripperd.control.task import Finding, Task
+from gripperd.errors import GripperdError, Refused
 from gripperd.signals import Quality
 
 
@@ -13,6 +15,12 @@ class Kind(StrEnum):
 
     GRASP = "grasp"
     RELEASE = "release"
+    ADJUST = "adjust"
+    MOVE = "move"
+    HOLD = "hold"
+    VENT = "vent"
+    SELF_TEST = "self_test"
+    TARE = "tare"
 
 
 class Status(StrEnum):
@@ -104,6 +112,28 @@ def no_answer(error: GripperdError) -> Failure:
     return Failure(category="fault", code="no-answer", message=str(error))
 
 
+Order: TypeAlias = GraspOrder | Task | None
+"""What a client asks for; None is a release."""
+
+
+def kind_of(order: Order) -> Kind:
+    """The kind of command that an order makes.
+
+    >>> kind_of(None)
+    <Kind.RELEASE: 'release'>
+    """
+    if order is None:
+        return Kind.RELEASE
+    if isinstance(order, GraspOrder):
+        return Kind.GRASP
+    return Kind(str(order.__struct_config__.tag))
+
+
+def not_possible(refused: Refused) -> Failure:
+    """What was possible when it was asked for is not any more."""
+    return Failure(category="precondition", code=refused.code, message=str(refused))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command:
     """A snapshot of one command. Times are seconds since the epoch."""
@@ -112,7 +142,7 @@ class Command:
     gripper: str
     kind: Kind
     order: GraspOrder | None
-    """What to grasp; None for a release."""
+    """What to grasp; None for a release and for a task."""
     status: Status
     created_at: float
     deadline: float
@@ -125,6 +155,10 @@ class Command:
     result: GraspResult | None = None
     error: Failure | None = None
     log: tuple[str, ...] = ()
+    task: Task | None = None
+    """What to do instead of a grasp or a release."""
+    finding: Finding | None = None
+    """What came of it, where that is no grip."""
 
     @property
     def final(self) -> bool:

@@ -1,19 +1,22 @@
 """The command that runs: its motion, and what its end means."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from gripperd.control.adjust import Adjustment
+from gripperd.control.admission import Scene
 from gripperd.control.command import (
     Command,
     Failure,
-    GraspResult,
     Outcome,
     Status,
 )
+from gripperd.control.ending import Ending
 from gripperd.control.grasp import Grasp
+from gripperd.control.held import Held
 from gripperd.control.meaning import doubt, failure
+from gripperd.control.motion import Motion, begin
 from gripperd.control.release import Release
 from gripperd.control.states import Grip
-from gripperd.model import Chain
 from gripperd.signals import Measurement
 from gripperd.units import MILLI
 
@@ -30,27 +33,19 @@ GRIP_AFTER = {
 """What the jaws hold after a grasp; an unwanted object is not let go of unasked."""
 
 
-@dataclass(frozen=True, slots=True)
-class Ending:
-    """How a command ended."""
-
-    grip: Grip
-    result: GraspResult | None = None
-    failure: Failure | None = None
-
-
 class Execution:
     """One command while it runs."""
 
-    def __init__(
-        self, command: Command, chain: Chain, current: float, wall: float
-    ) -> None:
+    def __init__(self, command: Command, scene: Scene, wall: float) -> None:
+        chain, current = scene.chain, scene.current
         order = command.order and replace(command.order, model=chain.name)
         self.command = replace(
             command, status=Status.RUNNING, started_at=wall, order=order
         )
-        self.motion: Grasp | Release
-        if order is not None:
+        self.motion: Grasp | Release | Motion
+        if command.task is not None:
+            self.motion, self.grip = begin(command.task, scene)
+        elif order is not None:
             self.motion = Grasp(order, chain, current)
             self.grip = Grip.CLOSING
         else:
@@ -63,8 +58,15 @@ class Execution:
             outcome = self.motion.step(measured, dt)
             self._note(self.motion)
             return None if outcome is None else self._grasped(outcome, measured)
+        if not isinstance(self.motion, Release):
+            return self.motion.step(measured, dt)
         opened = self.motion.step(measured, dt)
         return None if opened is None else _released(opened=opened)
+
+    @property
+    def held(self) -> Held | None:
+        """What is held if it is cut short now, where that is known."""
+        return self.motion.held if isinstance(self.motion, Adjustment) else None
 
     def _note(self, grasp: Grasp) -> None:
         """Keep a line for each phase, for whoever reads the command later."""
@@ -81,7 +83,13 @@ class Execution:
         line = f"{self.motion.elapsed:.2f} s: {outcome}"
         log = (*self.command.log, line, *filter(None, [doubt(result)]))
         self.command = replace(self.command, log=log)
-        return Ending(GRIP_AFTER[outcome], result, failure(result, self.motion.order))
+        grip = GRIP_AFTER[outcome]
+        return Ending(
+            grip,
+            result,
+            failure(result, self.motion.order),
+            held=self.motion.held(outcome) if grip is Grip.HOLDING else None,
+        )
 
 
 def _released(*, opened: bool) -> Ending:

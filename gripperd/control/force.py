@@ -3,7 +3,10 @@
 from gripperd.signals import Measurement, Quality, Reading
 
 CONTACT_FORCE = 0.4
-"""Measured force that counts as contact: 8 sigma of the bench's sensor. [N]"""
+"""Force that closing on nothing aims at, and contact where the noise is not known: 8
+sigma of the bench's sensor. [N]"""
+CONTACT_SIGMAS = 8.0
+"""Measured force that counts as contact, in sigma of the sensor's noise. [-]"""
 CONTACT_FORCE_SUBSTITUTED = 3.0
 """The same where the model stands in for the sensor; it knows friction to that. [N]"""
 TIME_CONSTANT = 0.1
@@ -45,4 +48,7 @@ class ForceSense:
         return self.now.quality is Quality.GOOD
 
     def _threshold(self) -> float:
-        return CONTACT_FORCE if self.measured else CONTACT_FORCE_SUBSTITUTED
+        if not self.measured:
+            return CONTACT_FORCE_SUBSTITUTED
+        noise = self.now.noise
+        return CONTACT_FORCE if noise is None else CONTACT_SIGMAS * noise

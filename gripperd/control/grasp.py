@@ -9,11 +9,12 @@ from enum import StrEnum
 
 from gripperd.control.command import GraspOrder, GraspResult, Outcome
 from gripperd.control.force import ForceSense
+from gripperd.control.held import Held
 from gripperd.control.plan import Plan
 from gripperd.control.profile import Mode
 from gripperd.control.proof import DURATION, Proof
 from gripperd.control.setpoint import Ramp, reached, within
-from gripperd.model import Chain
+from gripperd.model import Chain, Direction
 from gripperd.signals import Measurement
 
 CLOSED = 1.5e-3
@@ -135,6 +136,17 @@ class Grasp:
             slip_margin=slip,
             crush_margin=crush,
             duration=self.elapsed,
+        )
+
+    def held(self, outcome: Outcome) -> Held:
+        """What is held after an outcome, with the force to keep if it was reached."""
+        order = self.order
+        reached = outcome is Outcome.HELD and order.mode is Mode.FORCE
+        return Held(
+            profile=order.profile,
+            size=self._plan.size or order.profile.diameter,
+            force=order.target if reached else None,
+            travel=Direction.EXTENDING if self._eased else Direction.CONTRACTING,
         )
 
     def _approach(self, measured: Measurement, dt: float) -> Outcome | None:

@@ -6,32 +6,36 @@ current to write, or None where nothing has to change.
 
 from collections.abc import Callable
 
+from gripperd.control.admission import admit
 from gripperd.control.command import (
     CANCELLED,
-    OBJECT_HELD,
     STOPPED,
     Command,
     Failure,
     GraspOrder,
-    Status,
-    no_answer,
+    Order,
 )
+from gripperd.control.dispatch import Dispatch
 from gripperd.control.evaluation import check
-from gripperd.control.execution import Ending, Execution
+from gripperd.control.faults import Faults
 from gripperd.control.hold import Hold
 from gripperd.control.ledger import Key, Ledger
+from gripperd.control.lifecycle import Lifecycle
+from gripperd.control.monitors.policy import AS_SHIPPED, Monitoring
 from gripperd.control.output import Output
+from gripperd.control.permission import Permission
+from gripperd.control.protection import Protection, Sample
 from gripperd.control.senses import Senses
 from gripperd.control.snapshot import GripperState, Instant
-from gripperd.control.states import Event, Grip, Machine, after, possible
-from gripperd.errors import GripperdError, Refused
+from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.tare import tared
+from gripperd.control.task import Task
+from gripperd.errors import Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
 
 ATTACH_SAMPLES = 3
 """Measurements taken before the present state is believed and adopted."""
-STOP_TIME = 0.3
-"""Regulator and muscle are at rest after this. [s]"""
 
 
 class Gripper:
@@ -44,35 +48,62 @@ class Gripper:
     auto_enable
         Enable by itself after attaching; never moves.
     identify
-        Gives a new command its id.
+        Gives a new command or fault its id.
+    monitoring
+        What counts as a fault, and what is done about it.
     """
 
     def __init__(
-        self, name: str, chain: Chain, *, auto_enable: bool, identify: Callable[[], str]
+        self,
+        name: str,
+        chain: Chain,
+        *,
+        auto_enable: bool,
+        identify: Callable[[], str],
+        monitoring: Monitoring = AS_SHIPPED,
     ) -> None:
         self.name = name
         self.chain = chain
-        self.machine = Machine.OFFLINE
         self.ledger = Ledger(name, identify)
-        self._enabled = auto_enable
-        self.link = "not connected yet"
-        self._output = Output()
-        self._measured: Measurement | None = None
-        self._senses = Senses(chain)
         self.hold = Hold()
-        self._execution: Execution | None = None
-        self._dwell = 0.0
+        self.link = "not connected yet"
+        self._enabled = auto_enable
+        self._life = Lifecycle()
+        self._output = Output()
+        self._dispatch = Dispatch(self._life, self.ledger, self._output, self.hold)
+        self.permission = Permission(self._life, self._dispatch, self.ledger.journal)
+        self.faults = Faults(name, identify, self.ledger.journal)
+        self._protection = Protection(
+            self.faults,
+            self._life,
+            self._dispatch,
+            self._output,
+            self.hold,
+            monitoring.policies,
+        )
+        self._senses = Senses(chain, monitoring.spans)
+        self._measured: Measurement | None = None
         self._samples = 0
 
+    @property
+    def machine(self) -> Machine:
+        """What it is allowed to do."""
+        return self._life.state
+
+    @property
+    def attached(self) -> bool:
+        """Whether the present state of the hardware is known."""
+        return self._life.attached
+
     def submit(
-        self, order: GraspOrder | None, deadline: float, key: Key | None, now: Instant
+        self, order: Order, deadline: float, key: Key | None, now: Instant
     ) -> tuple[Command, bool]:
         """Accept a command, or give the one its key stands for already, and True.
 
         Parameters
         ----------
         order
-            What to grasp; None to release.
+            What to grasp or to do; None to release.
         deadline
             Longest time until the command is over. [s]
         key
@@ -87,11 +118,17 @@ class Gripper:
         """
         if (known := self.ledger.replay(key)) is not None:
             return known, True
+        if self.faults.latched:
+            raise self.faults.refusal()
         if self.machine is not Machine.EXECUTING:
-            after(self.machine, Event.START)
-        if order is not None:
+            self._life.check(Event.START)
+        self.permission.check()
+        if isinstance(order, GraspOrder):
             self._check_free()
+            self._protection.check(order.profile)
             check(order, self.chain)
+        elif order is not None:
+            self._check_task(order)
         return self.ledger.accept(order, deadline, key, now), False
 
     def stop(self, now: Instant) -> float | None:
@@ -99,8 +136,9 @@ class Gripper:
 
         Returns the current to write at once, None where it stays. [A]
         """
-        self._freeze()
-        self._end_all(STOPPED, now)
+        self._dispatch.freeze()
+        self._protection.freeze(self._measured)
+        self._dispatch.end_all(STOPPED, now)
         return self._output.change()
 
     def cancel(self, command_id: str, now: Instant) -> float | None:
@@ -111,63 +149,71 @@ class Gripper:
         NotFound, Refused
             No such command; or it is over already.
         """
-        command = self.ledger.get(command_id)
-        if command.final:
-            message = f"command {command_id} is over: {command.status}"
-            raise Refused(message, code="already-final")
-        if self._execution is None or self._execution.command.id != command_id:
-            self.ledger.close(command, now.wall, failure=CANCELLED)
-            return None
-        self._interrupt(CANCELLED, now)
+        self._dispatch.cancel(self.ledger.get(command_id), now)
         return self._output.change()
-
-    @property
-    def attached(self) -> bool:
-        """Whether the present state of the hardware is known."""
-        return self.machine not in {Machine.OFFLINE, Machine.ATTACHING}
 
     def enable(self) -> None:
         """Allow commands; nothing moves."""
-        self.machine = after(self.machine, Event.ENABLE)
+        self._life.on(Event.ENABLE)
         self._enabled = True
 
     def disable(self, now: Instant) -> None:
         """Allow no more commands, nor those that wait; the current stays."""
-        self.machine = after(self.machine, Event.DISABLE)
+        self._life.on(Event.DISABLE)
         self._enabled = False
-        self._end_all(CANCELLED, now)
+        self._dispatch.end_all(CANCELLED, now)
+
+    def reset(self, now: Instant) -> None:
+        """Leave a fault or an emergency stop for `disabled`; nothing moves.
+
+        Raises
+        ------
+        Refused
+            There is none, it was not acknowledged, or its cause is still there.
+        """
+        if self.machine is Machine.ESTOPPED:
+            self.permission.check_reset()
+            self._life.on(Event.ESTOP_RELEASED)
+        else:
+            self._life.check(Event.RESET)
+            self.faults.reset(now)
+            self._life.on(Event.RESET)
+        self._enabled = False
 
     def state(self, now: Instant) -> GripperState:
         """Snapshot for whoever asks."""
         measured = self._measured
-        running = self._execution
         return GripperState(
             name=self.name,
             machine=self.machine,
             grip=self.hold.grip,
-            available_transitions=possible(self.machine),
+            available_transitions=self._life.possible,
             adopted=self._output.adopted,
             current=self._output.current if self.attached else None,
             measured=measured,
             age=None if measured is None else now.monotonic - measured.time,
-            command=None if running is None else running.command.id,
+            command=self._dispatch.running,
             holding=self.hold.profile,
             link=self.link,
             model=self.chain.name,
+            held=self._dispatch.keep.held,
+            regulation=self._dispatch.keep.state(measured),
+            zero=self._dispatch.zero,
         )
 
     def use(self, chain: Chain) -> None:
         """Go by another model from the next period on; nothing is written."""
         self.chain = chain
-        self._senses = Senses(chain)
+        self._senses.use(chain)
 
     def link_lost(self, why: str, now: Instant) -> None:
         """Nothing can be read or written; the module keeps the last current."""
         self.link = why
         if self.machine is Machine.OFFLINE:
             return
-        self.machine = after(self.machine, Event.LINK_LOST)
-        self._end_all(Failure(category="fault", code="link-lost", message=why), now)
+        self._life.on(Event.LINK_LOST)
+        lost = Failure(category="fault", code="link-lost", message=why)
+        self._dispatch.end_all(lost, now)
         self.hold.settle(Grip.UNKNOWN, None)
 
     def period(self, raw: Measurement, dt: float, now: Instant) -> float | None:
@@ -177,30 +223,45 @@ class Gripper:
         -------
         The current to write, None where it stays. [A]
         """
-        measured = self._measured = self._senses.judge(raw, dt)
+        measured = self._measured = self._senses.judge(
+            tared(raw, self._dispatch.zero), dt
+        )
         self.link = "up"
         self.hold.update(measured, dt)
-        match self.machine:
-            case Machine.OFFLINE:
-                self.machine = after(self.machine, Event.LINK_UP)
-                self._samples = 0
-                return None
-            case Machine.ATTACHING:
-                self._attach(measured)
-                return None
-            case Machine.READY:
-                self._start_next(now)
-            case Machine.STOPPING:
-                self._dwell += dt
-                if self._dwell > STOP_TIME:
-                    self.machine = after(self.machine, Event.REST)
-            case _:
-                pass
-        self._notice_foreign_write(measured, now)
-        self._execute(measured, dt, now)
-        self._expire(now)
-        self.hold.look(adopted=self._output.adopted and self._execution is None)
+        self.permission.update(measured)
+        if not self.attached:
+            self._attach(measured)
+            return None
+        self.permission.enforce(now)
+        sample = Sample(measured, self._senses.scatter, self.chain)
+        self._protection.watch(sample, dt, now)
+        if self.machine is Machine.READY:
+            self._dispatch.start_next(self.chain, measured, now)
+        self._dispatch.step(measured, dt, now)
+        self._protection.step(measured, dt)
+        idle = self._dispatch.running is None
+        self.hold.look(adopted=self._output.adopted and idle)
+        if idle and self._dispatch.running is None:
+            self._keep(measured, dt)
         return self._output.change()
+
+    def _keep(self, measured: Measurement, dt: float) -> None:
+        """Look after what is held between commands."""
+        keep, output = self._dispatch.keep, self._output
+        if self.hold.grip is not Grip.HOLDING:
+            keep.begin(None)
+        elif output.adopted:
+            keep.leave()
+        elif self.machine is Machine.READY:
+            output.current = keep.step(measured, self.chain, output.current, dt)
+        else:
+            keep.pause()
+
+    def _check_task(self, task: Task) -> None:
+        """Refuse a task at once, unless something else will have happened by then."""
+        waits = self._dispatch.running is not None or any(self.ledger.waiting())
+        if not waits and self._measured is not None:
+            admit(task, self._dispatch.scene(self.chain, self._measured))
 
     def _check_free(self) -> None:
         objection = self.objection
@@ -215,86 +276,16 @@ class Gripper:
 
     def _attach(self, measured: Measurement) -> None:
         """Take over what is there; nothing is written before this."""
+        if self.machine is Machine.OFFLINE:
+            self._life.on(Event.LINK_UP)
+            self._samples = 0
+            return
         self._samples += 1
         if measured.current.value is None or self._samples < ATTACH_SAMPLES:
             return
         self._output.adopt(measured.current.value)
         self.hold.adopt()
-        self.machine = after(self.machine, Event.ADOPT)
-        if self._enabled:
+        self._dispatch.keep.begin(None)
+        self._life.on(Event.ADOPT)
+        if self._enabled and not self.faults.latched:
             self.enable()
-
-    def _start_next(self, now: Instant) -> None:
-        if (command := self.ledger.next()) is None:
-            return
-        if command.order is not None and self.objection:
-            self.ledger.close(command, now.wall, failure=OBJECT_HELD)
-            return
-        current = self._output.current
-        try:
-            self._execution = Execution(command, self.chain, current, now.wall)
-        except GripperdError as error:
-            self.ledger.close(command, now.wall, failure=no_answer(error))
-            return
-        self.machine = after(self.machine, Event.START)
-        self.ledger.put(self._execution.command)
-        self.hold.settle(self._execution.grip, None)
-
-    def _execute(self, measured: Measurement, dt: float, now: Instant) -> None:
-        if (execution := self._execution) is None:
-            return
-        try:
-            ending = execution.step(measured, dt)
-        except GripperdError as error:
-            self._interrupt(no_answer(error), now)
-            return
-        self._output.current = execution.motion.ramp.current
-        self.ledger.put(execution.command)
-        if ending is not None:
-            self.machine = after(self.machine, Event.FINISH)
-            self._end(ending, now)
-
-    def _end(self, ending: Ending, now: Instant) -> None:
-        assert self._execution is not None
-        command, self._execution = self._execution.command, None
-        order = command.order
-        self.hold.settle(ending.grip, None if order is None else order.profile.name)
-        self.ledger.close(
-            command, now.wall, result=ending.result, failure=ending.failure
-        )
-
-    def _end_all(self, failure: Failure, now: Instant) -> None:
-        if self._execution is not None:
-            self._end(Ending(self.hold.interrupted, None, failure), now)
-        for command in self.ledger.waiting():
-            self.ledger.close(command, now.wall, failure=failure)
-
-    def _interrupt(self, failure: Failure, now: Instant) -> None:
-        self._freeze()
-        self._end(Ending(self.hold.interrupted, None, failure), now)
-
-    def _freeze(self) -> None:
-        """Let the jaws rest where they are: the pressure lags behind the current."""
-        self.machine = after(self.machine, Event.STOP)
-        self._dwell = 0.0
-        if self._execution is not None and self._measured is not None:
-            self._execution.motion.rest(self._measured)
-            self._output.current = self._execution.motion.ramp.current
-
-    def _notice_foreign_write(self, measured: Measurement, now: Instant) -> None:
-        """Adopt a current that something else has set; never fight over the output."""
-        found = measured.current.value
-        if found is None or not self._output.foreign(found):
-            return
-        if self._execution is not None:
-            self.machine = after(self.machine, Event.FINISH)
-            dispute = self._output.dispute(found)
-            self._end(Ending(Grip.UNKNOWN, None, dispute), now)
-        self._output.adopt(found)
-
-    def _expire(self, now: Instant) -> None:
-        for command, failure in self.ledger.overdue(now):
-            if command.status is Status.RUNNING:
-                self._interrupt(failure, now)
-            else:
-                self.ledger.close(command, now.wall, failure=failure)

@@ -1,6 +1,6 @@
 """What the jaws hold: as commanded, as found, as lost."""
 
-from gripperd.control.states import Grip
+from gripperd.control.states import SIGNS, Grip, gripped
 from gripperd.control.watch import GripWatch
 from gripperd.signals import Measurement
 
@@ -24,8 +24,8 @@ class Hold:
 
     def settle(self, grip: Grip, profile: str | None) -> None:
         """Go by how a command began or ended."""
-        self.grip = grip
-        self.profile = profile if grip is Grip.HOLDING else None
+        self.grip = gripped(self.grip, SIGNS[grip])
+        self.profile = profile if self.grip is Grip.HOLDING else None
         self._watch.hold()
 
     @property

@@ -1,6 +1,6 @@
-"""The commands of one gripper: queue, history, idempotency keys."""
+"""The commands of one gripper: queue, recent past, names given by clients."""
 
-from collections import OrderedDict, deque
+from collections import Counter, OrderedDict, deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -11,21 +11,25 @@ from gripperd.control.command import (
     GraspOrder,
     GraspResult,
     Kind,
+    Order,
     Status,
+    kind_of,
 )
+from gripperd.control.journal import Journal
 from gripperd.control.snapshot import Instant
 from gripperd.errors import InputError, NotFound, Refused
 
 HISTORY = 1000
-"""Commands that are remembered; idempotency keys go with them."""
+"""Commands that are remembered; what is older has long been written down."""
 LONGEST_QUEUE = 8
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A client's promise that two requests are the same."""
+    """Who gives a command names it: the same name twice is the same command."""
 
-    text: str
+    id: str
+    """Id of the command, chosen before it is given, so that it can be looked for."""
     fingerprint: str
     """Digest of what was asked for, to catch a key used twice for other things."""
 
@@ -38,14 +42,17 @@ class Ledger:
     gripper
         Whose commands they are.
     identify
-        Gives a new command its id.
+        Gives a command its id when its client did not.
     """
 
     def __init__(self, gripper: str, identify: Callable[[], str]) -> None:
+        self.journal = Journal()
+        self.ended: Counter[str] = Counter()
+        """How many are over, by kind and status."""
         self._gripper = gripper
         self._identify = identify
         self._commands: OrderedDict[str, Command] = OrderedDict()
-        self._keys: dict[str, tuple[Key, str]] = {}
+        self._fingerprints: dict[str, str] = {}
         self._queue: deque[str] = deque()
         self._open: set[str] = set()
 
@@ -57,19 +64,15 @@ class Ledger:
         InputError
             The key was used for something else.
         """
-        if key is None or key.text not in self._keys:
+        if key is None or key.id not in self._commands:
             return None
-        known, command = self._keys[key.text]
-        if known.fingerprint != key.fingerprint:
-            message = (
-                f"the idempotency key {key.text!r} was used for another request:"
-                f" command {command}"
-            )
+        if self._fingerprints.get(key.id) != key.fingerprint:
+            message = f"command {key.id} was given with another request"
             raise InputError(message, key="Idempotency-Key")
-        return self._commands[command]
+        return self._commands[key.id]
 
     def accept(
-        self, order: GraspOrder | None, deadline: float, key: Key | None, now: Instant
+        self, order: Order, deadline: float, key: Key | None, now: Instant
     ) -> Command:
         """Queue a new command.
 
@@ -82,10 +85,11 @@ class Ledger:
             message = f"{LONGEST_QUEUE} commands are waiting already"
             raise Refused(message, code="queue-full", hints=("stop, or wait",))
         command = Command(
-            id=self._identify(),
+            id=self._identify() if key is None else key.id,
             gripper=self._gripper,
-            kind=Kind.RELEASE if order is None else Kind.GRASP,
-            order=order,
+            kind=kind_of(order),
+            order=order if isinstance(order, GraspOrder) else None,
+            task=None if isinstance(order, GraspOrder) else order,
             status=Status.QUEUED,
             created_at=now.wall,
             deadline=deadline,
@@ -95,7 +99,8 @@ class Ledger:
         self._queue.append(command.id)
         self._open.add(command.id)
         if key is not None:
-            self._keys[key.text] = (key, command.id)
+            self._fingerprints[key.id] = key.fingerprint
+        self.journal.command(command)
         self._forget()
         return command
 
@@ -104,7 +109,7 @@ class Ledger:
         over = (name for name in tuple(self._commands) if name not in self._open)
         for name in islice(over, max(len(self._commands) - HISTORY, 0)):
             del self._commands[name]
-            self._keys = {k: v for k, v in self._keys.items() if v[1] != name}
+            self._fingerprints.pop(name, None)
 
     def get(self, command: str) -> Command:
         """One command.
@@ -146,7 +151,10 @@ class Ledger:
 
     def put(self, command: Command) -> Command:
         """Record a new snapshot of a known command."""
+        known = self._commands.get(command.id)
         self._commands[command.id] = command
+        if known is None or known.status is not command.status:
+            self.journal.command(command)
         return command
 
     def close(
@@ -162,6 +170,7 @@ class Ledger:
         if failure is not None:
             cancelled = failure.category == "cancelled"
             status = Status.CANCELLED if cancelled else Status.FAILED
+        self.ended[f"{command.kind} {status}"] += 1
         self._open.discard(command.id)
         if command.id in self._queue:
             self._queue.remove(command.id)

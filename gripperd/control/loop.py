@@ -3,14 +3,19 @@
 import asyncio
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import structlog
 
-from gripperd.control.command import Command, GraspOrder, Status
+from gripperd.control.alarm import Alarm
+from gripperd.control.command import Command, Order, Status
 from gripperd.control.gripper import Gripper
+from gripperd.control.journal import Journal
 from gripperd.control.ledger import LONGEST_QUEUE, Key
+from gripperd.control.pace import Pace
 from gripperd.control.snapshot import GripperState, Instant
+from gripperd.control.timing import Timing
 from gripperd.drivers.analog import AnalogRig
 from gripperd.errors import InputError, LinkError
 
@@ -36,6 +41,8 @@ class Loop:
         Time between two samples. [s]
     now
         The clock.
+    advanced
+        Called after every period, with or without an answer from the rig.
     """
 
     def __init__(
@@ -45,13 +52,13 @@ class Loop:
         *,
         period: float,
         now: Callable[[], Instant] = clock,
+        advanced: Callable[[], None] = lambda: None,
     ) -> None:
         self.gripper = gripper
-        self.overruns = 0
-        """Periods that took longer than they should."""
         self._rig = rig
-        self._period = period
         self._now = now
+        self._pace = Pace(period, lambda: now().monotonic)
+        self._advanced = advanced
         self._news = asyncio.Event()
         self._log = structlog.get_logger().bind(gripper=gripper.name)
         self._told: tuple[Machine, Grip] | None = None
@@ -59,18 +66,20 @@ class Loop:
 
     async def run(self) -> None:
         """Control for ever; each period ends at an absolute deadline."""
-        last = deadline = self._now().monotonic
-        while True:
-            last = await self._step(last)
-            self._tell()
-            self._news.set()
-            self._news = asyncio.Event()
-            deadline += self._period
-            ahead = deadline - self._now().monotonic
-            if ahead < 0:
-                self.overruns += 1
-                deadline -= ahead
-            await asyncio.sleep(max(ahead, 0.0))
+        last = self._now().monotonic
+        self._pace.begin()
+        with Alarm() as alarm:
+            while True:
+                last = await self._step(last)
+                self._tell()
+                self._news.set()
+                self._news = asyncio.Event()
+                self._advanced()
+                await self._pace.next(alarm.until)
+
+    def timing(self) -> Timing:
+        """How punctual it has been."""
+        return self._pace.timing()
 
     async def _step(self, last: float) -> float:
         """One period; the time of its decision, which the next counts from."""
@@ -89,10 +98,19 @@ class Loop:
     def _tell(self) -> None:
         """Log what has changed: states, and commands that began or ended."""
         gripper = self.gripper
-        state = (gripper.machine, gripper.hold.grip)
+        now = self._now()
+        seen = gripper.state(now)
+        gripper.ledger.journal.look(seen, now.wall)
+        state = (seen.machine, seen.grip)
         if state != self._told:
             self._told = state
-            self._log.info("state", machine=state[0], grip=state[1], link=gripper.link)
+            self._log.info(
+                "state",
+                machine=seen.machine,
+                grip=seen.grip,
+                adopted=seen.adopted,
+                link=seen.link,
+            )
         newest = gripper.ledger.newest(LONGEST_QUEUE + 1)
         for command in reversed(newest):
             if self._statuses.get(command.id) is not command.status:
@@ -104,7 +122,7 @@ class Loop:
         return self.gripper.state(self._now())
 
     def submit(
-        self, order: GraspOrder | None, deadline: float, key: Key | None
+        self, order: Order, deadline: float, key: Key | None
     ) -> tuple[Command, bool]:
         """Accept a command, see :meth:`Gripper.submit`."""
         return self.gripper.submit(order, deadline, key, self._now())
@@ -126,6 +144,23 @@ class Loop:
         """End one command."""
         await self._write_at_once(self.gripper.cancel(command, self._now()))
         return self.gripper.ledger.get(command)
+
+    def present(self) -> Instant:
+        """The time, on both clocks."""
+        return self._now()
+
+    async def follow(self, number: int, seconds: float) -> Journal:
+        """The journal once it has an entry after a number, or the time is up."""
+        until = self._now().monotonic + seconds
+        journal = self.gripper.ledger.journal
+        while journal.newest <= number:
+            left = until - self._now().monotonic
+            if left <= 0:
+                break
+            with suppress(TimeoutError):
+                async with asyncio.timeout(left):
+                    await self._news.wait()
+        return journal
 
     async def wait(self, command: str, seconds: float) -> Command:
         """One command once it is over, or as it stands when the time is up."""

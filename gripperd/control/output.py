@@ -20,9 +20,16 @@ class Output:
         self.adopted = False
         """Whether the present current was found, not commanded."""
         self._strange = 0
+        self._read: float | None = None
+        self._overruled: tuple[float, float] | None = None
 
     def adopt(self, found: float) -> None:
         """Take over what the module does."""
+        # A write that was lost with the link leaves the module as it was read before.
+        known = [] if self._read is None else [self._read, self.written]
+        if known and min(abs(found - each) for each in known) > FOREIGN_STEP:
+            self._overruled = self.written, found
+        self._read = found
         self.current = self.written = found
         self.adopted = True
         self._strange = 0
@@ -34,7 +41,14 @@ class Output:
         """
         differs = abs(found - self.written) > FOREIGN_STEP
         self._strange = self._strange + 1 if differs else 0
+        if not differs:
+            self._read = found
         return self._strange >= 2
+
+    def take_overruled(self) -> tuple[float, float] | None:
+        """Give once what was told and what was found instead. [A, A]."""
+        change, self._overruled = self._overruled, None
+        return change
 
     def dispute(self, found: float) -> Failure:
         """What it means for a command that someone else wrote."""

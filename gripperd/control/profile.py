@@ -53,6 +53,15 @@ class Profile:
     """Rate of the valve current until just before contact. [A/s]"""
     ramp: float
     """Rate of the valve current from there on. [A/s]"""
+    compensate: bool = False
+    """Correct the force while the object is held, when it creeps."""
+    most_correction: float = 0.1
+    """Share of the pressure by which corrections may change it. [-]"""
+
+    slip_closing: float | None = None
+    """Closing of the jaws that counts as slip, if less than elsewhere. [m]"""
+    force_drift: float | None = None
+    """Share of the force that may drift, if less than elsewhere. [-]"""
 
     @property
     def slip_force(self) -> float:

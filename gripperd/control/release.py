@@ -14,10 +14,21 @@ SLACK_PRESSURE = 10e3
 
 
 class Release:
-    """A release from its first step to its end."""
+    """A release from its first step to its end.
 
-    def __init__(self, chain: Chain, current: float) -> None:
+    Parameters
+    ----------
+    chain
+        The model of the gripper.
+    current
+        Valve current at the start. [A]
+    rate
+        Of the valve current; without bound the air is let out at once. [A/s]
+    """
+
+    def __init__(self, chain: Chain, current: float, rate: float = RATE) -> None:
         self.ramp = Ramp(current)
+        self._rate = rate
         self._chain = chain
         self._force = ForceSense()
         self._dwell = 0.0
@@ -29,7 +40,7 @@ class Release:
         """
         self._force.update(measured, dt)
         self.ramp.tick(dt)
-        if not self.ramp.towards(self._chain.regulator.current_low, RATE, dt):
+        if not self.ramp.towards(self._chain.regulator.current_low, self._rate, dt):
             return None
         self._dwell += dt
         pressure, force = measured.pressure.value, self._force.now.value

@@ -1,13 +1,19 @@
 """Judges every sample once, before anything is decided on it.
 
-A single spike is taken out, a gap of a sample or two is bridged, and a force sensor
-that is broken or stuck is replaced by the model. What comes out is what clients see.
+A single spike is taken out, a gap of a sample or two is bridged, and a sensor that is
+broken or stuck is not believed; the model replaces the force. What comes out is what
+clients see.
 """
 
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import replace
 from statistics import median
+from types import MappingProxyType
 
+from gripperd.control.frozen import Frozen
+from gripperd.control.monitors.sight import Scatter
+from gripperd.control.noise import Noise
 from gripperd.errors import DomainError
 from gripperd.model import Chain
 from gripperd.signals import Measurement, Quality, Reading
@@ -20,18 +26,51 @@ FROZEN_FOR = 0.2
 """A force sensor that says the same to the last digit for so long may be stuck. [s]"""
 DOUBT = 10.0
 """And is, when the model differs by more: 4 sigma of the shipped reference. [N]"""
+SPANS: Mapping[str, float] = MappingProxyType(
+    {"pressure": 600e3, "opening": 0.1, "grip": 100.0}
+)
+"""Spans of the sensors of the shipped configuration. [SI]"""
+LEAST_NOISE = 5e-4
+"""Share of its span that a transmitter scatters by at least, one sigma. [-]"""
+RESTED = 1.0
+"""So long after the last change of the current nothing is meant to move. [s]"""
 
 
 class Senses:
-    """The sensors of one gripper, as far as they can be believed."""
+    """The sensors of one gripper, as far as they can be believed.
 
-    def __init__(self, chain: Chain) -> None:
+    Parameters
+    ----------
+    chain
+        The model that stands in for the force sensor.
+    spans
+        Of each sensor, in SI, by its name in a measurement.
+    """
+
+    def __init__(self, chain: Chain, spans: Mapping[str, float] = SPANS) -> None:
         self._chain = chain
         # A stop needs the pressure of this moment: a median would be one sample late.
-        self._pressure = _Channel(window=1)
-        self._opening, self._grip = _Channel(WINDOW), _Channel(WINDOW)
+        self._pressure = _Channel(1, spans.get("pressure", SPANS["pressure"]))
+        self._opening = _Channel(WINDOW, spans.get("opening", SPANS["opening"]))
+        self._grip = _Channel(WINDOW, spans.get("grip", SPANS["grip"]))
         self._last: float | None = None
         self._frozen = 0.0
+        self._current: float | None = None
+        self._rested = 0.0
+
+    def use(self, chain: Chain) -> None:
+        """Go by another model; what was learned of the sensors stays."""
+        self._chain = chain
+        self._grip.forget()
+
+    @property
+    def scatter(self) -> Scatter:
+        """How much each sensor scatters."""
+        return Scatter(
+            pressure=self._pressure.noise.sigma,
+            opening=self._opening.noise.sigma,
+            grip=self._grip.noise.sigma,
+        )
 
     def judge(self, raw: Measurement, dt: float) -> Measurement:
         """The sample as it may be used.
@@ -43,16 +82,30 @@ class Senses:
         dt
             Time since the last sample. [s]
         """
-        # The model needs pressure and opening of the same moment, so before the median.
-        force = grip_force(self._doubted(raw, dt), self._chain)
-        return replace(
+        resting = self._resting(raw, dt)
+        believed = replace(
             raw,
-            pressure=self._pressure.judge(raw.pressure),
-            opening=self._opening.judge(raw.opening),
-            grip=self._grip.judge(force),
+            pressure=self._pressure.doubt(raw.pressure, dt, resting=resting),
+            opening=self._opening.doubt(raw.opening, dt, resting=resting),
+            grip=self._grip.doubt(raw.grip, dt, resting=resting),
+        )
+        # The model needs pressure and opening of the same moment, so before the median.
+        force = grip_force(self._contradicted(believed, dt), self._chain)
+        return replace(
+            believed,
+            pressure=self._pressure.judge(believed.pressure),
+            opening=self._opening.judge(believed.opening),
+            grip=replace(self._grip.judge(force), noise=self._grip.noise.sigma),
         )
 
-    def _doubted(self, raw: Measurement, dt: float) -> Measurement:
+    def _resting(self, raw: Measurement, dt: float) -> bool:
+        """Whether nothing is meant to move."""
+        changed = raw.current.value != self._current
+        self._current = raw.current.value
+        self._rested = 0.0 if changed else self._rested + dt
+        return self._rested > RESTED
+
+    def _contradicted(self, raw: Measurement, dt: float) -> Measurement:
         """The sample without the force sensor, if that is stuck.
 
         One that repeats itself may be at rest; if the model says that the jaws press
@@ -73,10 +126,23 @@ class Senses:
 class _Channel:
     """One sensor over its last samples."""
 
-    def __init__(self, window: int) -> None:
+    def __init__(self, window: int, span: float) -> None:
+        self.noise = Noise(LEAST_NOISE * abs(span))
         self._values: deque[float] = deque(maxlen=window)
+        self._frozen = Frozen()
         self._gap = 0
         self._last = Reading.bad("not measured yet")
+
+    def doubt(self, reading: Reading, dt: float, *, resting: bool) -> Reading:
+        """The reading, or why it is not believed although there is one."""
+        self.noise.update(reading.value, dt)
+        if not self._frozen.update(reading.value, dt, resting=resting):
+            return reading
+        return Reading.bad(f"stuck for {self._frozen.seconds:.1f} s on one value")
+
+    def forget(self) -> None:
+        """Bridge nothing with the values so far."""
+        self._values.clear()
 
     def judge(self, reading: Reading) -> Reading:
         if reading.value is not None:

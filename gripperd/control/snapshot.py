@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from gripperd.control.held import Held
+from gripperd.control.regulation import RegulationState
 from gripperd.control.states import Event, Grip, Machine
 from gripperd.signals import Measurement
 
@@ -39,3 +41,9 @@ class GripperState:
     """``up``, or why there is none."""
     model: str
     """Name of the model that it goes by."""
+    held: Held | None = None
+    """What is held and under which limits, where that is known."""
+    regulation: RegulationState | None = None
+    """How its force is kept."""
+    zero: float = 0.0
+    """What the force sensor shows without a load. [N]"""

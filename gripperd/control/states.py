@@ -65,6 +65,24 @@ class Grip(StrEnum):
     MOVING = "moving"
 
 
+class Sign(StrEnum):
+    """What tells of the jaws: the beginning of a motion, or what is seen."""
+
+    CLOSE = "close"
+    OPEN = "open"
+    MOVE = "move"
+    CONTACT = "contact"
+    """They press on something."""
+    MISS = "miss"
+    """They press on nothing."""
+    LOSS = "loss"
+    """What they pressed on is gone."""
+    LET_GO = "let_go"
+    """They are open, without pressure and force."""
+    DOUBT = "doubt"
+    """Nothing that is seen can tell."""
+
+
 _ONLINE = {
     Event.LINK_LOST: Machine.OFFLINE,
     Event.FAIL: Machine.FAULT_REACTION,
@@ -112,12 +130,45 @@ TRANSITIONS: Mapping[Machine, Mapping[Event, Machine]] = MappingProxyType(
 """Every allowed pair; a pair that is not listed is refused."""
 
 
+_ANYWHERE = {
+    Sign.OPEN: Grip.RELEASING,
+    Sign.CONTACT: Grip.HOLDING,
+    Sign.DOUBT: Grip.UNKNOWN,
+}
+_FREE = {Sign.CLOSE: Grip.CLOSING, Sign.MOVE: Grip.MOVING}
+_EMPTY = {Sign.MISS: Grip.NO_PART, Sign.LET_GO: Grip.RELEASED}
+_GONE = dict.fromkeys((Sign.LOSS, Sign.MISS, Sign.LET_GO), Grip.PART_LOST)
+
+GRIPS: Mapping[Grip, Mapping[Sign, Grip]] = MappingProxyType(
+    {
+        Grip.UNKNOWN: _ANYWHERE | _FREE | _EMPTY | {Sign.LOSS: Grip.PART_LOST},
+        Grip.RELEASED: _ANYWHERE | _FREE | _EMPTY,
+        Grip.CLOSING: _ANYWHERE | _FREE | _EMPTY | {Sign.LOSS: Grip.PART_LOST},
+        # What is held is let go of by a command, or lost; never just not there.
+        Grip.HOLDING: _ANYWHERE | _GONE,
+        Grip.NO_PART: _ANYWHERE | _FREE | _EMPTY,
+        # A loss stays visible until a command, or the part itself, ends it.
+        Grip.PART_LOST: _ANYWHERE | _FREE | _GONE,
+        Grip.RELEASING: _ANYWHERE | _FREE | _EMPTY,
+        Grip.MOVING: _ANYWHERE | _FREE | _EMPTY | {Sign.LOSS: Grip.PART_LOST},
+    }
+)
+"""Every allowed pair of the grip; a pair that is not listed is refused."""
+
+SIGNS: Mapping[Grip, Sign] = MappingProxyType(
+    {grip: sign for sign, grip in (_ANYWHERE | _FREE | _EMPTY).items()}
+    | {Grip.PART_LOST: Sign.LOSS}
+)
+"""What tells of each grip state."""
+
+
 REQUESTS = {
     Event.START: "a command",
     Event.ENABLE: "enable",
     Event.DISABLE: "disable",
     Event.STOP: "stop",
     Event.RESET: "reset",
+    Event.ESTOP_RELEASED: "reset",
 }
 """What clients can ask for, in their words; the rest happens by itself."""
 
@@ -147,3 +198,19 @@ def after(state: Machine, event: Event) -> Machine:
             hints=(f"possible now: {words or 'nothing, only waiting'}",),
         )
     return allowed[event]
+
+
+def gripped(grip: Grip, sign: Sign) -> Grip:
+    """Grip state that follows a sign.
+
+    Raises
+    ------
+    Refused
+        With what may follow, when the pair is not in the table.
+    """
+    allowed = GRIPS[grip]
+    if sign not in allowed:
+        message = f"{sign} does not follow while the grip is {grip}"
+        hint = f"what may follow: {', '.join(sorted(allowed))}"
+        raise Refused(message, code="wrong-state", hints=(hint,))
+    return allowed[sign]

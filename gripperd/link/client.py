@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import msgspec
 
-from gripperd.errors import BadReply, LinkLost, ReplyTimeout
+from gripperd.errors import BadReply, LinkLost, NotConnected, ReplyTimeout
 from gripperd.link.frames import Answer, Ask, decode, encode, frame, raised, read_frame
 
 T = TypeVar("T")
@@ -42,8 +42,10 @@ class Client:
 
         Raises
         ------
+        NotConnected
+            The other end is not there; nothing was sent.
         LinkLost
-            The other end is not there.
+            It went away; whether it got the question is unknown.
         ReplyTimeout
             It did not answer in time.
         GripperdError
@@ -75,7 +77,7 @@ class Client:
             except OSError as error:
                 reason = error.strerror or error
                 message = f"{self._peer} is not running: {self._path}: {reason}"
-                raise LinkLost(message) from error
+                raise NotConnected(message) from error
             self._reading = asyncio.create_task(self._read(reader, self._writer))
             return self._writer
 

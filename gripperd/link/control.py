@@ -1,5 +1,7 @@
 """What the service asks of the control process."""
 
+from collections.abc import Callable
+from math import inf
 from typing import TypeAlias
 
 import msgspec
@@ -9,8 +11,12 @@ from gripperd.control.command import Command, GraspOrder
 from gripperd.control.ledger import Key
 from gripperd.control.loop import Loop
 from gripperd.control.swap import swap
-from gripperd.errors import NotFound
+from gripperd.control.task import Task
+from gripperd.control.timing import Timing
+from gripperd.errors import NotFound, Refused
+from gripperd.link import faults, lease
 from gripperd.link.frames import decode
+from gripperd.link.journal import Page, ReadJournal, page
 from gripperd.link.model import ModelMessage, chain_of
 
 log = structlog.get_logger()
@@ -26,6 +32,12 @@ class Overview(msgspec.Struct, frozen=True):
     """Periods that took too long, since the start."""
     started_at: float
     """Seconds since the epoch."""
+    timings: dict[str, Timing] = {}
+    """How punctual the loop of each gripper has been."""
+    unlogged: int = 0
+    """Log lines that were dropped, because nobody took them in time."""
+    ended: dict[str, dict[str, int]] = {}
+    """How many commands of each gripper are over, by kind and status."""
 
 
 class Submitted(msgspec.Struct, frozen=True):
@@ -52,6 +64,12 @@ class Submit(msgspec.Struct, frozen=True, tag=True):
     order: GraspOrder | None
     deadline: float
     key: Key | None = None
+    lease: str | None = None
+    """Token of the lease that it is given under."""
+    task: Task | None = None
+    """What to do instead of a grasp or a release."""
+    late: float | None = None
+    """From then on the monotonic clock nobody waits for it: it is not begun. [s]"""
 
 
 class ReadCommand(msgspec.Struct, frozen=True, tag=True):
@@ -74,6 +92,7 @@ class Cancel(msgspec.Struct, frozen=True, tag=True):
 
     gripper: str
     id: str
+    lease: str | None = None
 
 
 class Stop(msgspec.Struct, frozen=True, tag=True):
@@ -86,6 +105,7 @@ class Enable(msgspec.Struct, frozen=True, tag=True):
     """Allow commands; the reply is a :class:`GripperState`."""
 
     gripper: str
+    lease: str | None = None
 
 
 class UseModel(msgspec.Struct, frozen=True, tag=True):
@@ -115,6 +135,9 @@ Request: TypeAlias = (
     | Enable
     | Disable
     | UseModel
+    | ReadJournal
+    | lease.Request
+    | faults.Request
 )
 
 
@@ -122,25 +145,57 @@ class ControlDesk:
     """Answers the service on behalf of the loops."""
 
     def __init__(
-        self, loops: dict[str, Loop], *, real_time: bool, started_at: float
+        self,
+        loops: dict[str, Loop],
+        *,
+        real_time: bool,
+        started_at: float,
+        unlogged: Callable[[], int] = lambda: 0,
     ) -> None:
         self._loops = loops
         self._real_time = real_time
         self._started_at = started_at
+        self._unlogged = unlogged
 
     async def respond(self, body: msgspec.Raw) -> object:
         """Do what one request asks for."""
         request: Request = decode(body, Request)  # type: ignore[arg-type]
         if isinstance(request, ReadOverview):
-            overruns = sum(loop.overruns for loop in self._loops.values())
-            names = tuple(self._loops)
-            return Overview(names, self._real_time, overruns, self._started_at)
+            return self._overview()
         if isinstance(request, UseModel):
             loops = [self._loop(name) for name in request.grippers]
             swap([loop.gripper for loop in loops], chain_of(request.model))
             log.info("model", grippers=request.grippers, model=request.model.name)
             return [loop.state() for loop in loops]
+        if isinstance(request, ReadJournal):
+            return await self._page(request)
+        if isinstance(request, lease.Request):
+            loop = self._loop(request.gripper)
+            return lease.respond(request, loop.gripper, loop.present())
+        if isinstance(request, faults.Request):
+            loop = self._loop(request.gripper)
+            return faults.respond(request, loop.gripper, loop.present())
         return await _respond(request, self._loop(request.gripper))
+
+    async def _page(self, request: ReadJournal) -> Page:
+        loop, life = self._loop(request.gripper), self._started_at
+        after = request.after if request.life == life else 0
+        return page(await loop.follow(after, request.wait), life, after)
+
+    def _overview(self) -> Overview:
+        timings = {name: loop.timing() for name, loop in self._loops.items()}
+        return Overview(
+            grippers=tuple(self._loops),
+            real_time=self._real_time,
+            overruns=sum(timing.overruns for timing in timings.values()),
+            started_at=self._started_at,
+            timings=timings,
+            unlogged=self._unlogged(),
+            ended={
+                name: dict(loop.gripper.ledger.ended)
+                for name, loop in self._loops.items()
+            },
+        )
 
     def _loop(self, name: str) -> Loop:
         if name not in self._loops:
@@ -151,9 +206,11 @@ class ControlDesk:
 
 
 async def _respond(request: Request, loop: Loop) -> object:
+    _check(request, loop)
     match request:
         case Submit(_, order, deadline, key):
-            return Submitted(*loop.submit(order, deadline, key))
+            asked = request.task or order
+            return Submitted(*loop.submit(asked, deadline, key))
         case ReadCommand(_, command, wait):
             return await loop.wait(command, wait)
         case ListCommands(_, count):
@@ -169,3 +226,14 @@ async def _respond(request: Request, loop: Loop) -> object:
         case _:
             pass
     return loop.state()
+
+
+def _check(request: Request, loop: Loop) -> None:
+    """Refuse what needs a lease without it, and what comes too late."""
+    now = loop.present()
+    if isinstance(request, Submit | Cancel | Enable):
+        loop.gripper.permission.tenancy.check(request.lease, now)
+    if isinstance(request, Submit) and (request.late or inf) <= now.monotonic:
+        # Nobody waits for it any more, and somebody may have been told so.
+        message = "the request came too late to be begun"
+        raise Refused(message, code="too-late")

@@ -15,8 +15,12 @@ from gripperd.service import (
     commands,
     diagnoses,
     docs,
+    faults,
     grippers,
     health,
+    history,
+    leases,
+    metrics,
     models,
     predictions,
     profiles,
@@ -29,6 +33,7 @@ from gripperd.service.failures import answer_failures
 from gripperd.service.fleet import Fleet
 from gripperd.service.guard import Guard
 from gripperd.service.library import ProfileLibrary
+from gripperd.service.past import Past
 from gripperd.store.diagnoses import Diagnoses
 from gripperd.store.recordings import Recordings
 
@@ -53,9 +58,11 @@ async def living(app: FastAPI) -> AsyncIterator[None]:
     context: Context = app.state.context
     await to_thread(context.recordings.sweep)
     await context.diagnosing.open()
+    context.past.open()
     try:
         yield
     finally:
+        await context.past.close()
         await context.diagnosing.close()
 
 
@@ -103,6 +110,7 @@ def create_app(
         started_at=started_at,
         version=version,
         recordings=recordings,
+        past=Past(settings.state_dir / "history.db", control, fleet),
         diagnosing=Diagnosing(
             Diagnoses(settings.state_dir / "diagnoses"),
             recordings,
@@ -113,6 +121,9 @@ def create_app(
     for resource in (
         grippers,
         commands,
+        leases,
+        faults,
+        history,
         health,
         profiles,
         predictions,
@@ -122,6 +133,7 @@ def create_app(
         bench_resource,
     ):
         app.include_router(resource.routes, prefix=VERSIONED, responses=schema.PROBLEM)
+    app.include_router(metrics.routes)
     app.include_router(docs.routes)
     app.add_middleware(Guard, host=settings.http.host)
     answer_failures(app)

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from gripperd.bench.contacts import Contact
 from gripperd.bench.faults import HEALTHY, BenchFaults
 from gripperd.bench.object import BenchObject
 from gripperd.bench.placed import ObjectState
@@ -30,6 +31,7 @@ from gripperd.units import SI_PER_UNIT, split
 routes = router("bench")
 
 Broken = Annotated[Channel, Field(strict=False)]
+Opened = Annotated[Contact, Field(strict=False)]
 
 
 class ObjectRequest(Section):
@@ -58,10 +60,22 @@ class FaultsRequest(Section):
     leak_per_s: float = Field(
         default=0, ge=0, le=1000, description="50 for a burst muscle."
     )
+    valve_stuck: bool = Field(default=False, description="Deaf to the current.")
     jaw_friction_N: float = Field(default=0, ge=0, le=100_000)
+    jaws_blocked: bool = Field(default=False, description="Jammed both ways.")
+    pad_friction: float = Field(
+        default=1, ge=0, le=1, description="Share of the friction that is left."
+    )
+    pull_N: float = Field(
+        default=0, ge=0, le=100_000, description="On the object, besides its weight."
+    )
     broken: list[Broken] = Field(default=[], description="Sensors whose wire is cut.")
     frozen: list[Broken] = Field(
         default=[], description="Sensors that repeat themselves."
+    )
+    opened: list[Opened] = Field(
+        default=[],
+        description="Open contacts: no enable, the emergency stop is pressed.",
     )
 
 
@@ -71,9 +85,14 @@ class FaultsDocument(Document):
     supply_kPa: float | None
     valve_offset_kPa: float
     leak_per_s: float
+    valve_stuck: bool
     jaw_friction_N: float
+    jaws_blocked: bool
+    pad_friction: float
+    pull_N: float
     broken: tuple[Channel, ...]
     frozen: tuple[Channel, ...]
+    opened: tuple[Contact, ...]
 
 
 class ObjectDocument(Document):
@@ -130,9 +149,14 @@ async def set_faults(daemon: Daemon, given: FaultsRequest) -> BenchDocument:
         supply_pressure=None if supply is None else _si("supply_kPa", supply),
         valve_offset=_si("valve_offset_kPa", given.valve_offset_kPa),
         leak_rate=given.leak_per_s,
+        valve_stuck=given.valve_stuck,
         jaw_friction=given.jaw_friction_N,
+        jaws_blocked=given.jaws_blocked,
+        pad_friction=given.pad_friction,
+        pull=given.pull_N,
         broken=frozenset(given.broken),
         frozen=frozenset(given.frozen),
+        opened=frozenset(given.opened),
     )
     return await _asked(daemon, SetFaults(faults))
 
@@ -209,7 +233,12 @@ def _faults(faults: BenchFaults) -> FaultsDocument:
         supply_kPa=known("kPa", faults.supply_pressure, GIVEN),
         valve_offset_kPa=to("kPa", faults.valve_offset, GIVEN),
         leak_per_s=faults.leak_rate,
+        valve_stuck=faults.valve_stuck,
         jaw_friction_N=faults.jaw_friction,
+        jaws_blocked=faults.jaws_blocked,
+        pad_friction=faults.pad_friction,
+        pull_N=faults.pull,
         broken=tuple(sorted(faults.broken)),
         frozen=tuple(sorted(faults.frozen)),
+        opened=tuple(sorted(faults.opened)),
     )

@@ -3,6 +3,7 @@
 # ruff: noqa: N815  (names carry units, and units have capitals)
 
 from datetime import datetime
+from typing import TypeAlias
 
 from pydantic import Field
 
@@ -17,6 +18,15 @@ from gripperd.control.command import (
     Status,
 )
 from gripperd.control.profile import Mode
+from gripperd.control.task import (
+    Adjust,
+    Adopt,
+    Checked,
+    Move,
+    Moved,
+    Tared,
+    Task,
+)
 from gripperd.service import assumption
 from gripperd.service.rendering import (
     GIVEN,
@@ -40,6 +50,7 @@ class ParamsDocument(Document):
     current_mA: float | None = optional("Target of mode current.")
     force_N: float | None = optional("Target of mode force, per jaw.")
     diameter_mm: float | None = optional("Expected size of the object.")
+    opening_mm: float | None = optional("Where the empty jaws are to stand.")
     model: str | None = optional("Model the grasp was checked with.")
     assumed: dict[str, object] | None = optional(
         "The profile that was made up, when none was named."
@@ -65,6 +76,35 @@ class ResultDocument(Document):
     model: str | None
 
 
+class MovedDocument(Document):
+    """Where empty jaws came to rest; null where it is not known."""
+
+    opening_mm: float | None
+    error_mm: float | None = Field(description="From what was asked for.")
+    current_mA: float
+
+
+class TaredDocument(Document):
+    """The zero of the force sensor, now taken off what it shows."""
+
+    zero_N: float
+    noise_N: float = Field(description="One sigma.")
+
+
+class CheckedDocument(Document):
+    """What a self-test measured; null where no sensor tells it."""
+
+    valve_error_kPa: float | None = Field(description="More than was asked for.")
+    rise_time_s: float | None = Field(description="To 63 % of the step.")
+    droop_kPa_per_s: float | None = Field(description="While the current stood still.")
+    pressure_noise_kPa: float | None = Field(description="One sigma.")
+    force_noise_N: float | None = Field(description="One sigma.")
+    force_quality: Quality
+
+
+FindingDocument: TypeAlias = MovedDocument | TaredDocument | CheckedDocument
+
+
 class FailureDocument(Document):
     """Why a command did not do what was asked."""
 
@@ -87,7 +127,7 @@ class CommandDocument(Document):
     started_at: datetime | None
     completed_at: datetime | None
     phase: str | None
-    result: ResultDocument | None
+    result: ResultDocument | FindingDocument | None
     error: FailureDocument | None
     log: tuple[str, ...]
 
@@ -106,20 +146,21 @@ def command_document(command: Command) -> CommandDocument:
         gripper=command.gripper,
         type=command.kind,
         status=command.status,
-        params=_params(command.order, command.deadline),
+        params=_params(command),
         created_at=timestamp(command.created_at),
         started_at=None if started is None else timestamp(started),
         completed_at=None if completed is None else timestamp(completed),
         phase=command.phase or None,
-        result=_result(command.result, command.order) if command.result else None,
+        result=_outcome(command),
         error=_failure(command.error) if command.error else None,
         log=command.log,
     )
 
 
-def _params(order: GraspOrder | None, deadline: float) -> ParamsDocument:
+def _params(command: Command) -> ParamsDocument:
+    order, deadline = command.order, command.deadline
     if order is None:
-        return ParamsDocument(deadline_s=deadline)
+        return _task_params(command.task, deadline)
     profile, target = order.profile, order.target
     version = _version(order)
     in_current = order.mode is Mode.CURRENT
@@ -134,6 +175,51 @@ def _params(order: GraspOrder | None, deadline: float) -> ParamsDocument:
         model=order.model,
         assumed=None if version else profile_document(profile),
     )
+
+
+def _task_params(task: Task | None, deadline: float) -> ParamsDocument:
+    match task:
+        case Adjust(force=float() as force):
+            return ParamsDocument(deadline_s=deadline, force_N=to("N", force, GIVEN))
+        case Adjust(current=float() as current):
+            asked = to("mA", current, GIVEN)
+            return ParamsDocument(deadline_s=deadline, current_mA=asked)
+        case Adopt(profile=profile):
+            return ParamsDocument(
+                deadline_s=deadline,
+                profile=profile.name,
+                profile_version=profile.version,
+            )
+        case Move(opening=opening):
+            asked = to("mm", opening, GIVEN)
+            return ParamsDocument(deadline_s=deadline, opening_mm=asked)
+        case _:
+            return ParamsDocument(deadline_s=deadline)
+
+
+def _outcome(command: Command) -> ResultDocument | FindingDocument | None:
+    if command.result is not None:
+        return _result(command.result, command.order)
+    match command.finding:
+        case Moved(opening=opening, error=error, current=current):
+            return MovedDocument(
+                opening_mm=known("mm", opening),
+                error_mm=known("mm", error),
+                current_mA=to("mA", current),
+            )
+        case Tared(zero=zero, noise=noise):
+            return TaredDocument(zero_N=to("N", zero), noise_N=to("N", noise))
+        case Checked() as found:
+            return CheckedDocument(
+                valve_error_kPa=known("kPa", found.valve_error),
+                rise_time_s=known("s", found.rise_time),
+                droop_kPa_per_s=known("kPa", found.droop),
+                pressure_noise_kPa=known("kPa", found.pressure_noise),
+                force_noise_N=known("N", found.force_noise),
+                force_quality=found.force_quality,
+            )
+        case None:
+            return None
 
 
 def _version(order: GraspOrder) -> int | None:

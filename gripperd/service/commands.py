@@ -4,98 +4,63 @@ import hashlib
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import Annotated, Literal, Self
+from typing import Annotated, NamedTuple
 
-from fastapi import Body, Depends, Header, Query, Request, Response
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from fastapi import Depends, Header, Query, Request, Response
+from pydantic import BaseModel, ConfigDict, Field
 
-from gripperd.config.section import Section
 from gripperd.control.command import Command
 from gripperd.control.evaluation import check
-from gripperd.control.ledger import Key
 from gripperd.errors import InputError, LinkError
-from gripperd.link.client import Client
-from gripperd.link.control import Cancel, ListCommands, ReadCommand, Submit, Submitted
-from gripperd.service.body import disagreement, router
+from gripperd.link.control import Cancel, Submit
+from gripperd.service.body import router
 from gripperd.service.command_documents import (
     CommandDocument,
     Commands,
     command_document,
 )
-from gripperd.service.context import Daemon
+from gripperd.service.command_requests import (
+    CommandRequest,
+    GraspParams,
+    GraspRequest,
+    ReleaseRequest,
+    task_for,
+)
+from gripperd.service.context import Context, Daemon
+from gripperd.service.leases import LeaseToken
 from gripperd.service.preferences import Wait, Waiting
-from gripperd.service.target import Target, order_for
+from gripperd.service.target import order_for
 
-GRACE = 5.0
-"""How much longer than the wait itself its answer may take. [s]"""
-DEFAULT_DEADLINE = 15.0
-"""[s]"""
 LONGEST_LIST = 200
 """So that a list fits into one message between the processes."""
 
 routes = router("commands")
 
-Seconds = Annotated[float, Field(ge=0.1, le=120)]
+
+class Terms(NamedTuple):
+    """What a command is given under, besides what it says."""
+
+    key: str | None
+    """The client's idempotency key."""
+    fingerprint: str
+    """Digest of the request that the key stands for."""
+    lease: str | None
+    """Token of the client's lease."""
 
 
-class ReleaseParams(Section):
-    """How to open the jaws."""
-
-    deadline_s: Seconds = Field(
-        default=DEFAULT_DEADLINE,
-        description="The command is over by then, come what may.",
-    )
-
-
-class GraspParams(Target, ReleaseParams):
-    """What to grasp: a profile, or a size with a force or current."""
-
-    profile: str | None = None
-
-
-class _InEitherPlace(Section):
-    """Params stand beside the type or in an object of their own."""
-
-    @model_validator(mode="after")
-    def _in_one_place(self) -> Self:
-        given = self.model_fields_set - {"type"}
-        if getattr(self, "params", None) is not None and given != {"params"}:
-            message = "values stand in params or beside the type, not in both"
-            raise disagreement(message)
-        return self
-
-
-class GraspRequest(GraspParams, _InEitherPlace):
-    """Close the jaws on an object."""
-
-    type: Literal["grasp"]
-    params: GraspParams | None = None
-
-
-class ReleaseRequest(ReleaseParams, _InEitherPlace):
-    """Open the jaws."""
-
-    type: Literal["release"]
-    params: ReleaseParams | None = None
-
-
-CommandRequest = Annotated[
-    GraspRequest | ReleaseRequest, Field(discriminator="type"), Body()
-]
-
-
-async def _key(
+async def _terms(
     request: Request,
+    lease: LeaseToken,
     idempotency_key: Annotated[str | None, Header(min_length=1, max_length=255)] = None,
-) -> Key | None:
+) -> Terms:
     """Bind a key to the request as it was sent: what it refers to may change."""
-    if idempotency_key is None or not await request.body():
-        return None
+    if not await request.body():
+        return Terms(None, "", lease)
     sent = json.dumps([request.url.path, await request.json()], sort_keys=True)
-    return Key(idempotency_key, hashlib.sha256(sent.encode()).hexdigest())
+    return Terms(idempotency_key, hashlib.sha256(sent.encode()).hexdigest(), lease)
 
 
-GivenKey = Annotated[Key | None, Depends(_key)]
+GivenTerms = Annotated[Terms, Depends(_terms)]
 
 
 @routes.post("/grippers/{gripper}/commands", status_code=201)
@@ -103,30 +68,51 @@ async def give_command(
     daemon: Daemon,
     gripper: str,
     asked: CommandRequest,
-    key: GivenKey,
+    terms: GivenTerms,
     wait: Wait,
     response: Response,
 ) -> CommandDocument:
-    """Grasp or release; 200 instead of 201 when the key was used for it before."""
-    order = None
-    params = asked.params or asked
-    if isinstance(asked, GraspRequest) and isinstance(params, GraspParams):
-        chain = (await daemon.up_to_date(daemon.gripper(gripper))).chain
-        with _within("params" if asked.params else ""):
-            order = order_for(params.profile, params, chain, daemon.library)
-        check(order, chain)
-    submit = Submit(daemon.gripper(gripper).name, order, params.deadline_s, key)
-    accepted = await daemon.change(submit, Submitted)
-    command = accepted.command
-    if accepted.replayed:
+    """Grasp, release, adjust and the like; on disk before it begins.
+
+    200 instead of 201: the key was used for it before. 202: the disk fails, and
+    without a key it is carried out all the same.
+    """
+    submit = await _submit(daemon, gripper, asked, terms)
+    given = await daemon.past.submissions.give(
+        submit, terms.key, terms.fingerprint, daemon.change
+    )
+    if given.replayed:
         response.status_code = 200
         response.headers["idempotency-replayed"] = "true"
+    elif not given.recorded:
+        response.status_code = 202
+    command = given.command
     response.headers["location"] = f"/v1/grippers/{gripper}/commands/{command.id}"
     # The command is accepted, and its client must learn so, whatever comes now.
     with suppress(LinkError):
-        command = await _followed(daemon.control, command, wait)
+        if wait.seconds and command.completed_at is None:
+            command = await daemon.past.command(gripper, command.id, wait.seconds)
         _applied(wait, response)
-    return command_document(command)
+    return command
+
+
+async def _submit(
+    daemon: Context, gripper: str, asked: CommandRequest, terms: Terms
+) -> Submit:
+    """What to give to control; a grasp that cannot go well is refused here."""
+    name = daemon.gripper(gripper).name
+    params = asked.params or asked
+    order, task = None, None
+    if not isinstance(asked, ReleaseRequest):
+        chain = (await daemon.up_to_date(daemon.gripper(gripper))).chain
+        with _within("params" if asked.params else ""):
+            if not isinstance(asked, GraspRequest):
+                task = task_for(asked, chain, daemon.library)
+            elif isinstance(params, GraspParams):
+                order = order_for(params.profile, params, chain, daemon.library)
+        if order is not None:
+            check(order, chain)
+    return Submit(name, order, params.deadline_s, lease=terms.lease, task=task)
 
 
 class ListQuery(BaseModel):
@@ -142,9 +128,8 @@ async def list_commands(
     daemon: Daemon, gripper: str, query: Annotated[ListQuery, Query()]
 ) -> Commands:
     """The last commands, newest first."""
-    request = ListCommands(daemon.gripper(gripper).name, query.limit)
-    found = await daemon.control.ask(request, list[Command])
-    return Commands(commands=tuple(command_document(command) for command in found))
+    name = daemon.gripper(gripper).name
+    return Commands(commands=tuple(await daemon.past.commands(name, query.limit)))
 
 
 @routes.get("/grippers/{gripper}/commands/{id}")
@@ -153,27 +138,18 @@ async def read_command(
 ) -> CommandDocument:
     """One command, at once or when it is over."""
     name = daemon.gripper(gripper).name
-    command = await _read(daemon.control, name, id, wait.seconds)
+    command = await daemon.past.command(name, id, wait.seconds)
     _applied(wait, response)
-    return command_document(command)
+    return command
 
 
 @routes.delete("/grippers/{gripper}/commands/{id}", status_code=202)
-async def cancel_command(daemon: Daemon, gripper: str, id: str) -> CommandDocument:
+async def cancel_command(
+    daemon: Daemon, gripper: str, id: str, lease: LeaseToken
+) -> CommandDocument:
     """End a command; if it runs, the jaws freeze as on a stop."""
-    request = Cancel(daemon.gripper(gripper).name, id)
+    request = Cancel(daemon.gripper(gripper).name, id, lease)
     return command_document(await daemon.change(request, Command))
-
-
-async def _followed(control: Client, command: Command, wait: Waiting) -> Command:
-    if command.final or not wait.seconds:
-        return command
-    return await _read(control, command.gripper, command.id, wait.seconds)
-
-
-async def _read(control: Client, gripper: str, command: str, wait: float) -> Command:
-    request = ReadCommand(gripper, command, wait)
-    return await control.ask(request, Command, wait + GRACE)
 
 
 def _applied(wait: Waiting, response: Response) -> None:

@@ -14,9 +14,11 @@ from gripperd.control.states import Machine
 from gripperd.errors import InputError, LinkError, NotFound, Refused
 from gripperd.link.client import Client
 from gripperd.link.control import Cancel, Disable, Enable, ReadState, Stop, Submit
+from gripperd.link.faults import Reset
 from gripperd.service.diagnosing import Diagnosing
 from gripperd.service.fleet import Fleet
 from gripperd.service.library import ProfileLibrary
+from gripperd.service.past import Past
 from gripperd.service.shared import Shared
 from gripperd.service.state import StateDocument, state_document
 from gripperd.store.recordings import Recordings
@@ -53,6 +55,7 @@ class Context:
     version: str
     recordings: Recordings
     diagnosing: Diagnosing
+    past: Past
     activating: Lock = field(default_factory=Lock)
     """One change of versions at a time, so that files and control agree."""
     reading: Lock = field(default_factory=Lock)
@@ -112,7 +115,7 @@ class Context:
         return self.bench
 
     async def change(
-        self, request: Submit | Cancel | Stop | Enable | Disable, reply: type[T]
+        self, request: Submit | Cancel | Stop | Enable | Disable | Reset, reply: type[T]
     ) -> T:
         """Ask control to do something with a gripper.
 

@@ -6,6 +6,7 @@ from gripperd.control.snapshot import GripperState
 from gripperd.link.control import Disable, Enable, Stop
 from gripperd.service.body import router
 from gripperd.service.context import Context, Daemon
+from gripperd.service.leases import LeaseToken
 from gripperd.service.rendering import Document
 from gripperd.service.state import StateDocument, state_document
 
@@ -39,9 +40,9 @@ async def stop(daemon: Daemon, gripper: str) -> StateDocument:
 
 
 @routes.post("/grippers/{gripper}/enable")
-async def enable(daemon: Daemon, gripper: str) -> StateDocument:
+async def enable(daemon: Daemon, gripper: str, lease: LeaseToken) -> StateDocument:
     """Allow commands; nothing moves."""
-    return await _changed(daemon, Enable(gripper))
+    return await _changed(daemon, Enable(gripper, lease))
 
 
 @routes.post("/grippers/{gripper}/disable")

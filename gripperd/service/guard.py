@@ -25,7 +25,13 @@ STREAMED = frozenset({("POST", "/v1/recordings")})
 """Bodies that are read as they come, by whoever answers."""
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 PRODUCED = frozenset(
-    {"*/*", "application/*", "application/json", "application/problem+json"}
+    {
+        "*/*",
+        "application/*",
+        "application/json",
+        "application/problem+json",
+        "text/event-stream",
+    }
 )
 
 

@@ -15,7 +15,8 @@ from gripperd.link.control import Overview, ReadOverview
 from gripperd.service.body import router
 from gripperd.service.context import Context, Daemon
 from gripperd.service.problems import ProblemResponse, problem
-from gripperd.service.rendering import Document, timestamp
+from gripperd.service.rendering import Document, optional, timestamp
+from gripperd.service.timing_documents import TimingDocument, timing_document
 
 OVERVIEW_WITHIN = 1.0
 """[s]"""
@@ -29,7 +30,9 @@ NO_WATCHDOG = (
 )
 FAILS_OPEN = "{name}: without power or air the muscle vents and the object drops"
 SKIPPED = "a saved profile is not there: {complaint}"
+DAMAGED = "the history left out what is not as it was written: {records}"
 NO_REAL_TIME = "the control loop runs without real-time priority; see overruns"
+UNLOGGED = "control dropped {count} log lines: nobody took them in time"
 
 routes = router("health")
 
@@ -38,6 +41,7 @@ class Health(Document):
     """Well; anything else is a problem document."""
 
     status: Literal["live", "ready"]
+    degraded: str | None = optional("What does not work, though holding goes on.")
 
 
 class About(Document):
@@ -57,6 +61,9 @@ class About(Document):
         description="The control loop has real-time priority; null while unknown."
     )
     overruns: int | None = Field(description="Periods of control that took too long.")
+    timing: Mapping[str, TimingDocument] = Field(
+        description="How punctual the control loop of each gripper is."
+    )
     warnings: tuple[str, ...]
 
 
@@ -72,7 +79,7 @@ async def ready(request: Request, daemon: Daemon) -> Health | Response:
     found = [await _reason(daemon, name) for name in daemon.fleet]
     reasons = [reason for reason in found if reason]
     if not reasons:
-        return Health(status="ready")
+        return Health(status="ready", degraded=daemon.past.archive.trouble)
     detail = "; ".join(dict.fromkeys(reasons))
     return ProblemResponse(problem("not-ready", detail, instance=request.url.path))
 
@@ -109,8 +116,14 @@ async def info(daemon: Daemon) -> About:
         control_started_at=timestamp(overview.started_at) if overview else None,
         real_time=overview.real_time if overview else None,
         overruns=overview.overruns if overview else None,
+        timing=_timing(overview),
         warnings=tuple(_warnings(daemon, overview)),
     )
+
+
+def _timing(overview: Overview | None) -> Mapping[str, TimingDocument]:
+    timings = overview.timings if overview else {}
+    return {name: timing_document(timing) for name, timing in timings.items()}
 
 
 def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
@@ -119,7 +132,14 @@ def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
         yield NO_WATCHDOG.format(name=name)
         if gripper.fail_mode is FailMode.VENT:
             yield FAILS_OPEN.format(name=name)
+    archive = daemon.past.archive
+    if archive.trouble is not None:
+        yield archive.trouble
+    if archive.damaged:
+        yield DAMAGED.format(records=", ".join(archive.damaged))
     for complaint in daemon.library.skipped:
         yield SKIPPED.format(complaint=complaint)
     if overview is not None and not overview.real_time:
         yield NO_REAL_TIME
+    if overview is not None and overview.unlogged:
+        yield UNLOGGED.format(count=overview.unlogged)

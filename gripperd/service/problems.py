@@ -55,6 +55,18 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         "object-held": Kind(
             409, "An object is being held", Category.PRECONDITION, retryable=True
         ),
+        "not-acknowledged": Kind(
+            409, "A fault was not acknowledged", Category.PRECONDITION
+        ),
+        "cause-present": Kind(
+            409, "The cause of a fault is still there", Category.PRECONDITION
+        ),
+        "estopped": Kind(
+            409, "The emergency stop is pressed", Category.PRECONDITION, retryable=True
+        ),
+        "not-enabled": Kind(
+            409, "The external enable is missing", Category.PRECONDITION, retryable=True
+        ),
         "already-final": Kind(409, "It is over already", Category.PRECONDITION),
         "not-finished": Kind(
             409, "It is not over yet", Category.PRECONDITION, retryable=True
@@ -85,11 +97,19 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         "invalid": Kind(422, "The request cannot be carried out as it is"),
         "infeasible": Kind(422, "The grasp would fail or do harm"),
         "idempotency-mismatch": Kind(422, "The key was used for another request"),
+        "leased": Kind(
+            423, "Somebody else has the lease", Category.PRECONDITION, retryable=True
+        ),
+        "lease-lost": Kind(423, "Your lease is over", Category.PRECONDITION),
         "if-match-required": Kind(428, "Say which version you change"),
         "queue-full": Kind(
             429, "Too many are waiting", Category.PRECONDITION, retryable=True
         ),
+        "too-many-readers": Kind(
+            429, "Too many follow the events", Category.PRECONDITION, retryable=True
+        ),
         "headers-too-large": Kind(431, "The headers are too large"),
+        "overloaded": Kind(503, "Too many ask at once", retryable=True),
         "internal": Kind(500, "A defect of gripperd", Category.INTERNAL),
         "link-lost": Kind(503, "A part is not there", Category.LINK, retryable=True),
         "no-reply": Kind(503, "A part did not answer", Category.LINK, retryable=True),
@@ -101,6 +121,10 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         "storage-failed": Kind(
             503, "The disk did not take it", Category.INTERNAL, retryable=True
         ),
+        "not-recorded": Kind(
+            503, "The disk does not keep it", Category.INTERNAL, retryable=True
+        ),
+        "too-late": Kind(503, "It came too late", Category.LINK, retryable=True),
         "storage-full": Kind(
             507, "The disk is full", Category.PRECONDITION, retryable=True
         ),

@@ -5,15 +5,35 @@ import errno
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, cast
 
 import uvicorn
 from starlette.types import ASGIApp
 
 from gripperd.errors import Refused
+from gripperd.service.connection import (
+    LONGEST_WAIT,
+    MOST_CONNECTIONS,
+    Connection,
+    Waiting,
+)
+from gripperd.service.crowd import MOST_REQUESTS, Crowd
 
 GRACE = 2
 """How long requests in flight may take when the server ends. [s]"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """What the server puts up with."""
+
+    connections: int = MOST_CONNECTIONS
+    requests: int = MOST_REQUESTS
+    """That are being answered at a time."""
+    wait: float = LONGEST_WAIT
+    """For the headers of a request. [s]"""
 
 
 class _Server(uvicorn.Server):
@@ -33,7 +53,11 @@ class _Server(uvicorn.Server):
 
 
 async def serve(
-    app: ASGIApp, host: str, port: int, on_ready: Callable[[str], None]
+    app: ASGIApp,
+    host: str,
+    port: int,
+    on_ready: Callable[[str], None],
+    limits: Limits = Limits(),
 ) -> None:
     """Serve until cancelled; requests in flight may end.
 
@@ -45,6 +69,8 @@ async def serve(
         Where to listen; port 0 takes a free one.
     on_ready
         Called with the URL once connections are accepted.
+    limits
+        What it puts up with.
 
     Raises
     ------
@@ -53,9 +79,11 @@ async def serve(
     """
     listening = await _bound(host, port)
     url = _url(listening)
+    connection = partial(Connection, Waiting(), limits.connections, limits.wait)
     config = uvicorn.Config(
-        app,
-        http="httptools",
+        Crowd(app, limits.requests),
+        # Whatever makes a connection will do; uvicorn only asks for less.
+        http=cast("type[asyncio.Protocol]", connection),
         ws="none",
         lifespan="off",
         log_config=None,

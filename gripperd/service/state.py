@@ -3,8 +3,11 @@
 from pydantic import Field
 
 from gripperd.config import FailMode, GripperSettings
+from gripperd.control.budget import Cause, budget
+from gripperd.control.regulation import RegulationState
 from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.trust import Level
 from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
 from gripperd.service.rendering import Document, known, optional, to
@@ -44,6 +47,28 @@ class PresentPrediction(Document):
     opening_mm: float
 
 
+class RegulationDocument(Document):
+    """How the force of what is held is kept."""
+
+    level: Level = Field(description="What the pressure is corrected by.")
+    quality: Quality = Field(
+        description="Of the force; `substituted` while the model stands in for it."
+    )
+    cause: str | None = optional("Why the quality is not good.")
+    wanted_N: float | None = Field(description="Null with a fixed current.")
+    correction_kPa: float
+    most_kPa: float = Field(description="Bound of the correction.")
+
+
+class BudgetDocument(Document):
+    """Seconds until the grip force is under the slip limit; null: it stays above."""
+
+    air_s: float | None = Field(description="After the loss of air.")
+    power_s: float | None = Field(description="After the loss of power.")
+    bus_s: float | None = Field(description="After the loss of the bus.")
+    limited_by: Cause | None
+
+
 class StateDocument(Document):
     """Everything about a gripper at one moment."""
 
@@ -60,6 +85,13 @@ class StateDocument(Document):
     prediction: PresentPrediction | None = Field(
         description="Null unless current, opening and model are known."
     )
+    regulation: RegulationDocument | None = Field(
+        description="Null unless an object is held under a profile."
+    )
+    hold_budget: BudgetDocument | None = Field(
+        description="Null unless it is known what is held, and how hard."
+    )
+    zero_N: float = Field(description="Taken off what the force sensor shows.")
     fail_mode: FailMode = Field(description="What happens without power or air.")
     model: str = Field(description="Name of the version that it goes by.")
 
@@ -84,8 +116,47 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
             force_N=_measured("grip", "N", state),
         ),
         prediction=_predicted(state, settings.chain) if fresh else None,
+        regulation=_regulated(state.regulation),
+        hold_budget=_lasting(state, settings),
+        zero_N=to("N", state.zero),
         fail_mode=settings.fail_mode,
         model=state.model,
+    )
+
+
+def _regulated(found: RegulationState | None) -> RegulationDocument | None:
+    if found is None:
+        return None
+    return RegulationDocument(
+        level=found.level,
+        quality=found.quality,
+        cause=found.cause or None,
+        wanted_N=known("N", found.wanted),
+        correction_kPa=to("kPa", found.correction),
+        most_kPa=to("kPa", found.most),
+    )
+
+
+def _lasting(state: GripperState, settings: GripperSettings) -> BudgetDocument | None:
+    """The budget by the last measurement, less the time since."""
+    if state.held is None or state.measured is None or state.age is None:
+        return None
+    if state.model != settings.chain.name:
+        return None
+    found = budget(
+        state.held,
+        state.measured,
+        settings.chain,
+        fail_mode=settings.fail_mode,
+        worst_leak=settings.worst_leak,
+    )
+    if found is None:
+        return None
+    return BudgetDocument(
+        air_s=known("s", max(found.air - state.age, 0.0)),
+        power_s=known("s", max(found.power - state.age, 0.0)),
+        bus_s=known("s", max(found.bus - state.age, 0.0)),
+        limited_by=found.limited_by,
     )
 
 

@@ -84,3 +84,33 @@ def test_a_crack_stays() -> None:
         cracked.append(placed.cracked)
     assert cracked == [False, True, True, True]
     assert placed.stiffness == pytest.approx(0.2 * 3e4)
+
+
+def test_what_slides_down_is_narrower_where_the_pads_touch_it() -> None:
+    placed = pressed(0.5 * SLIP_FORCE, 0.252)
+    while placed.slid < 0.010:
+        placed.step(0.5 * SLIP_FORCE, 1e-5)
+    # Pythagoras: a chord 10 mm below the middle of a ball of 41 mm.
+    assert placed.width == pytest.approx(
+        2 * (20.5**2 - 10.0**2) ** 0.5 * 1e-3, rel=1e-3
+    )
+
+
+def test_ice_on_the_pads_lets_it_fall_freely() -> None:
+    placed = pressed(10 * SLIP_FORCE, 0.3)
+    placed.disturb(friction=0.0, pull=0.0)
+    time = 0.0
+    while placed.state is not ObjectState.LOST:
+        placed.step(10 * SLIP_FORCE, 1e-5)
+        time += 1e-5
+    assert time == pytest.approx((2 * 0.0205 / 11.80665) ** 0.5, abs=1e-4)
+
+
+def test_a_pull_counts_like_weight() -> None:
+    # At three times the slip force, twice the weight may be added, and no more.
+    load = 0.060 * 11.80665
+    for pull, state in ((1.99 * load, "held"), (2.01 * load, "slipping")):
+        placed = pressed(3 * SLIP_FORCE, 0.3)
+        placed.disturb(friction=1.0, pull=pull)
+        placed.step(3 * SLIP_FORCE, 1e-3)
+        assert placed.state == state

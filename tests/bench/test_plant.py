@@ -312,3 +312,26 @@ def test_the_same_commands_give_the_same_motion(chain: Chain) -> None:
     first, second = (grasping(chain, sturdy(0.058)) for _ in range(2))
     assert first.grip == second.grip
     assert first.opening == second.opening
+
+
+def test_blocked_jaws_stand_whatever_the_pressure(chain: Chain) -> None:
+    plant = Plant(chain, PlantSettings())
+    plant.faults = BenchFaults(jaws_blocked=True)
+    plant.current = 0.020
+    run(plant, 2.0)
+    assert plant.pressure == pytest.approx(500e3)
+    assert plant.opening == chain.linkage.open_width
+
+
+def test_a_stuck_valve_keeps_its_pressure_until_it_is_mended(chain: Chain) -> None:
+    plant = Plant(chain, PlantSettings())
+    plant.current = 0.0107
+    run(plant, 2.0)
+    plant.faults = BenchFaults(valve_stuck=True)
+    plant.current = 0.004
+    run(plant, 2.0)
+    # 10.7 mA of 4 to 20 mA on 500 kPa.
+    assert plant.pressure == pytest.approx(209_375.0)
+    plant.faults = BenchFaults()
+    run(plant, 2.0)
+    assert plant.pressure == pytest.approx(0.0)

@@ -8,13 +8,20 @@ import sys
 
 from rich.console import Console
 
-from tests.benchmarks import bus, latency, physics, plant
+from tests.benchmarks import bus, latency, physics, plant, punctuality, stopping
 
-CHAPTERS = {"physics": physics, "plant": plant, "bus": bus, "latency": latency}
+CHAPTERS = {
+    "physics": physics,
+    "plant": plant,
+    "bus": bus,
+    "latency": latency,
+    "stopping": stopping,
+    "punctuality": punctuality,
+}
 
 
 def main() -> None:
-    console = Console(width=100)
+    console = Console(width=140)
     for name in sys.argv[1:] or CHAPTERS:
         console.print(CHAPTERS[name].table())
 

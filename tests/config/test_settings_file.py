@@ -74,6 +74,12 @@ def test_without_a_file_the_shipped_bench_is_driven_over_the_wire() -> None:
         "grip": SensorWiring(
             channel=2, scale=LoopScale(**low, **high, value_high=100.0)
         ),
+        "enable": SensorWiring(
+            channel=3, scale=LoopScale(**low, **high, value_high=1.0)
+        ),
+        "estop": SensorWiring(
+            channel=4, scale=LoopScale(**low, **high, value_high=1.0)
+        ),
     }
 
 

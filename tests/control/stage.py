@@ -7,10 +7,17 @@ from itertools import count, pairwise
 from gripperd.bench.faults import HEALTHY, BenchFaults
 from gripperd.bench.object import BenchObject
 from gripperd.bench.rig import Rig
-from gripperd.control.command import Command, Failure, GraspOrder, GraspResult
+from gripperd.control.command import (
+    Command,
+    Failure,
+    GraspOrder,
+    GraspResult,
+    Order,
+)
 from gripperd.control.grasp import Grasp
 from gripperd.control.gripper import Gripper
 from gripperd.control.ledger import Key
+from gripperd.control.monitors.policy import AS_SHIPPED, Monitoring
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.senses import Senses
 from gripperd.control.snapshot import GripperState, Instant
@@ -53,7 +60,13 @@ def ordered(profile: Profile, mode: Mode, target: float | None = None) -> GraspO
 class Stage:
     """Steps rig and control together, a period at a time, and sees everything."""
 
-    def __init__(self, chain: Chain, rig: Rig, spans: Mapping[str, float]) -> None:
+    def __init__(
+        self,
+        chain: Chain,
+        rig: Rig,
+        spans: Mapping[str, float],
+        monitoring: Monitoring = AS_SHIPPED,
+    ) -> None:
         self.chain = chain
         self.rig = rig
         self.now = 0.0
@@ -62,7 +75,11 @@ class Stage:
         """Every current that was written, and when. [s, A]"""
         ids = count(1)
         self.gripper = Gripper(
-            "g0", chain, auto_enable=True, identify=lambda: f"c{next(ids)}"
+            "g0",
+            chain,
+            auto_enable=True,
+            identify=lambda: f"c{next(ids)}",
+            monitoring=monitoring,
         )
         self._scales = [
             LoopScale(
@@ -129,7 +146,7 @@ class Stage:
             self.tick()
 
     def submit(
-        self, order: GraspOrder | None, deadline: float = 30.0, key: Key | None = None
+        self, order: Order, deadline: float = 30.0, key: Key | None = None
     ) -> Command:
         """Give a command."""
         return self.gripper.submit(order, deadline, key, self.instant)[0]
@@ -148,7 +165,7 @@ class Stage:
         """Freeze, as the loop does it: the write goes out at once."""
         self.write(self.gripper.stop(self.instant))
 
-    def complete(self, order: GraspOrder | None) -> Command:
+    def complete(self, order: Order) -> Command:
         """Give a command and control until it is over."""
         command = self.submit(order)
         self.until(lambda: self.command(command).final)

@@ -154,7 +154,7 @@ def test_a_release_opens_the_jaws(holding: Stage) -> None:
 
 
 def test_a_release_that_did_not_open_is_told(holding: Stage) -> None:
-    holding.rig.plant.faults = BenchFaults(frozen=frozenset({Channel.PRESSURE}))
+    holding.rig.plant.faults = BenchFaults(jaws_blocked=True)
     command = holding.complete(None)
     assert command.status is Status.FAILED
     assert holding.failure(command).code == "not_released"

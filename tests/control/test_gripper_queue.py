@@ -46,7 +46,7 @@ def test_a_replay_is_answered_in_any_state(ready: Stage, apple: GraspOrder) -> N
 
 def test_a_key_for_another_request_is_an_error(ready: Stage, apple: GraspOrder) -> None:
     ready.submit(apple, key=Key("k", "grasp apple"))
-    with pytest.raises(InputError, match="'k' was used for another") as wrong:
+    with pytest.raises(InputError, match="k was given with another") as wrong:
         ready.submit(None, key=Key("k", "release"))
     assert wrong.value.key == "Idempotency-Key"
 

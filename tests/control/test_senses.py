@@ -1,7 +1,9 @@
 from dataclasses import replace
+from random import Random
 
 import pytest
 
+from gripperd.control.force import ForceSense
 from gripperd.control.senses import Senses, grip_force
 from gripperd.effects.linkage_friction import LinkageFriction
 from gripperd.model import Chain, PressedObject
@@ -119,3 +121,27 @@ def test_a_broken_sensor_is_replaced_with_what_the_joints_leave(chain: Chain) ->
     reading = grip_force(measured(BROKEN, 209_375.0, 0.065), rubs)
     # While closing the joints take a tenth of the 47.6 N.
     assert reading.value == pytest.approx(0.9 * 47.6, abs=0.05)
+
+
+@pytest.mark.parametrize(("span", "contact"), [(100.0, 0.4), (500.0, 2.0)])
+def test_contact_is_what_stands_out_of_the_noise_that_a_span_implies(
+    chain: Chain, span: float, contact: float
+) -> None:
+    # 8 sigma of 0.05 % of the span.
+    for share, touching in ((0.98, False), (1.02, True)):
+        senses, force = Senses(chain, {"grip": span}), ForceSense()
+        for _ in range(5):
+            raw = measured(Reading(share * contact))
+            force.update(senses.judge(raw, PERIOD), PERIOD)
+        assert force.touching is touching
+
+
+def test_contact_follows_a_sensor_that_is_noisier_than_its_span_implies(
+    chain: Chain,
+) -> None:
+    rng, senses, force = Random(1), Senses(chain), ForceSense()
+    for _ in range(3000):
+        raw = measured(Reading(rng.gauss(0.0, 0.2)))
+        force.update(senses.judge(raw, PERIOD), PERIOD)
+        assert not force.touching
+    assert senses.scatter.grip == pytest.approx(0.2, rel=0.15)

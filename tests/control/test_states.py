@@ -1,6 +1,17 @@
 import pytest
 
-from gripperd.control.states import TRANSITIONS, Event, Machine, after
+from gripperd.control.states import (
+    GRIPS,
+    SIGNS,
+    TRANSITIONS,
+    Event,
+    Grip,
+    Machine,
+    Sign,
+    after,
+    gripped,
+    possible,
+)
 from gripperd.errors import Refused
 
 MOVING = {Machine.EXECUTING}
@@ -65,16 +76,16 @@ def test_every_pair_is_in_the_table_or_refused_with_hints(
     if event in TRANSITIONS[state]:
         assert after(state, event) is TRANSITIONS[state][event]
         return
-    words = "a command" if event is Event.START else event
+    words = {Event.START: "a command", Event.ESTOP_RELEASED: "reset"}.get(event, event)
     with pytest.raises(Refused, match=f"{words} is not possible while") as refused:
         after(state, event)
     assert f"while the gripper is {state}" in str(refused.value)
     assert refused.value.code == "wrong-state"
     (hint,) = refused.value.hints
-    for asked in (Event.ENABLE, Event.DISABLE, Event.STOP, Event.RESET):
-        assert (asked in TRANSITIONS[state]) == (
-            asked in hint.split(": ")[1].split(", ")
-        )
+    offered = hint.split(": ")[1].split(", ")
+    for asked in (Event.ENABLE, Event.DISABLE, Event.STOP):
+        assert (asked in TRANSITIONS[state]) == (asked in offered)
+    assert (state in {Machine.FAULT, Machine.ESTOPPED}) == ("reset" in offered)
 
 
 def test_every_state_can_be_reached_from_offline() -> None:
@@ -137,3 +148,67 @@ def test_only_its_release_or_a_lost_link_ends_an_emergency_stop() -> None:
     allowed = TRANSITIONS[Machine.ESTOPPED]
     leaving = {event for event in allowed if allowed[event] is not Machine.ESTOPPED}
     assert leaving == {Event.ESTOP_RELEASED, Event.LINK_LOST}
+
+
+ANYWHERE = {"open": "releasing", "contact": "holding", "doubt": "unknown"}
+EMPTY = ANYWHERE | {
+    "close": "closing",
+    "move": "moving",
+    "miss": "no_part",
+    "let_go": "released",
+}
+GONE = dict.fromkeys(("loss", "miss", "let_go"), "part_lost")
+GRIP_PROMISED = {
+    "unknown": EMPTY | {"loss": "part_lost"},
+    "released": EMPTY,
+    "closing": EMPTY | {"loss": "part_lost"},
+    "holding": ANYWHERE | GONE,
+    "no_part": EMPTY,
+    "part_lost": ANYWHERE | GONE | {"close": "closing", "move": "moving"},
+    "releasing": EMPTY,
+    "moving": EMPTY | {"loss": "part_lost"},
+}
+
+
+def test_the_grip_table_is_what_was_promised() -> None:
+    found = {
+        str(grip): {str(sign): str(target) for sign, target in allowed.items()}
+        for grip, allowed in GRIPS.items()
+    }
+    assert found == GRIP_PROMISED
+
+
+@pytest.mark.parametrize("grip", Grip)
+@pytest.mark.parametrize("sign", Sign)
+def test_every_pair_of_the_grip_is_in_the_table_or_refused(
+    grip: Grip, sign: Sign
+) -> None:
+    promised = GRIP_PROMISED[grip].get(sign)
+    if promised is not None:
+        assert gripped(grip, sign) == promised
+        return
+    with pytest.raises(Refused, match=f"{sign} does not follow") as refused:
+        gripped(grip, sign)
+    assert f"while the grip is {grip}" in str(refused.value)
+    (hint,) = refused.value.hints
+    assert set(hint.split(": ")[1].split(", ")) == set(GRIP_PROMISED[grip])
+
+
+def test_what_is_held_never_vanishes_without_a_loss() -> None:
+    ways = {sign for sign, target in GRIPS[Grip.HOLDING].items()}
+    assert {GRIPS[Grip.HOLDING][sign] for sign in ways} == {
+        Grip.HOLDING,
+        Grip.RELEASING,
+        Grip.UNKNOWN,
+        Grip.PART_LOST,
+    }
+
+
+def test_each_grip_has_a_sign_that_leads_to_it() -> None:
+    for grip in Grip:
+        assert any(table.get(SIGNS[grip]) is grip for table in GRIPS.values())
+
+
+def test_a_fault_offers_its_reset() -> None:
+    assert Event.RESET in possible(Machine.FAULT)
+    assert Event.START not in possible(Machine.FAULT)

@@ -139,11 +139,11 @@ BODIES: list[tuple[str, int, str, str | None, str]] = [
         "121 s is above 120 s",
     ),
     (
-        '{"type": "adjust", "force_N": 12}',
+        '{"type": "juggle", "force_N": 12}',
         422,
         "invalid",
         "/type",
-        "supported are: grasp, release",
+        "supported are: grasp, release, adjust, hold, move, vent, tare, self_test",
     ),
     ("{}", 422, "invalid", "/type", "is missing"),
     ("[]", 422, "invalid", "", "needs a JSON object"),
@@ -163,7 +163,7 @@ BODIES: list[tuple[str, int, str, str | None, str]] = [
         422,
         "invalid",
         "/type",
-        "supported are: grasp, release",
+        "supported are: grasp, release, adjust, hold, move, vent, tare, self_test",
     ),
     (
         '{"type": "grasp", "profile": "raw_egg", "force_N": 30}',

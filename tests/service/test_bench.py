@@ -47,9 +47,14 @@ def test_faults_are_replaced_as_a_whole(daemon: Daemon) -> None:
         "supply_kPa": None,
         "valve_offset_kPa": -5.0,
         "leak_per_s": 0.0,
+        "valve_stuck": False,
         "jaw_friction_N": 0.0,
+        "jaws_blocked": False,
+        "pad_friction": 1.0,
+        "pull_N": 0.0,
         "broken": [],
         "frozen": ["opening", "pressure"],
+        "opened": [],
     }
     found = daemon.http.delete(f"{BENCH}/faults").json()["faults"]
     assert (found["valve_offset_kPa"], found["frozen"]) == (0.0, [])

@@ -25,6 +25,13 @@ def test_info_says_what_one_has_to_know(daemon: Daemon) -> None:
     assert found["fail_modes"] == {"g0": "freeze"}
     assert (found["control"], found["real_time"]) == ("up", False)
     assert found["overruns"] >= 0
+    assert set(found["timing"]) == {"g0"}
+    timing = found["timing"]["g0"]
+    assert timing["target_ms"] == 10
+    lateness = timing["lateness"]
+    assert 0 <= lateness["p50_ms"] <= lateness["p99_ms"] <= lateness["longest_ms"]
+    # It started a period at 10 ms, however late, so none was much shorter.
+    assert timing["period"]["p50_ms"] > 5
     said = " ".join(found["warnings"])
     assert "not a safety function" in said
     assert "no watchdog" in said
@@ -36,3 +43,4 @@ def test_info_is_there_without_control(lonely: httpx.Client) -> None:
     assert found["mode"] == "hardware"
     assert "not running" in found["control"]
     assert (found["real_time"], found["overruns"]) == (None, None)
+    assert found["timing"] == {}

@@ -1,0 +1,21 @@
+"""How a command ends."""
+
+from dataclasses import dataclass
+
+from gripperd.control.command import Failure, GraspResult
+from gripperd.control.held import Held
+from gripperd.control.states import Grip
+from gripperd.control.task import Finding
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """What a command leaves behind."""
+
+    grip: Grip
+    result: GraspResult | None = None
+    failure: Failure | None = None
+    held: Held | None = None
+    """What is held from now on; None where that is nothing, or not known."""
+    finding: Finding | None = None
+    """What came of a task that is no grasp."""

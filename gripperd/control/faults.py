@@ -1,0 +1,201 @@
+"""What went wrong with one gripper: what is still so, and what was before."""
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+
+from gripperd.control.journal import Happening, Journal
+from gripperd.control.monitors.policy import Cause, Policy, Reaction
+from gripperd.control.monitors.sight import Symptom
+from gripperd.control.snapshot import Instant
+from gripperd.errors import NotFound, Refused
+
+HISTORY = 500
+"""Faults that are remembered."""
+CLEARED_AFTER = 1.0
+"""A symptom has to be away for so long until its cause counts as gone. [s]"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fault:
+    """A snapshot of one fault. Times are seconds since the epoch."""
+
+    id: str
+    gripper: str
+    cause: Cause
+    subject: str
+    """Which one, where there are several, such as a channel."""
+    message: str
+    reaction: Reaction
+    latched: bool
+    """Whether it stops the gripper until it is acknowledged and reset."""
+    raised_at: float
+    cleared_at: float | None = None
+    """When the cause was gone."""
+    acknowledged_at: float | None = None
+    acknowledged_by: str | None = None
+    reset_at: float | None = None
+
+    @property
+    def active(self) -> bool:
+        """Whether it still matters: its cause is there, or it is latched."""
+        if self.latched:
+            return self.reset_at is None
+        return self.cleared_at is None
+
+
+class Faults:
+    """Every fault from its first symptom to long after its end.
+
+    Parameters
+    ----------
+    gripper
+        Whose faults they are.
+    identify
+        Gives a new fault its id.
+    journal
+        Where it is told.
+    """
+
+    def __init__(
+        self, gripper: str, identify: Callable[[], str], journal: Journal
+    ) -> None:
+        self._gripper = gripper
+        self._journal = journal
+        self._identify = identify
+        self._faults: OrderedDict[str, Fault] = OrderedDict()
+        self._away: dict[str, float] = {}
+        """Active faults, and for how long their symptom has been away. [s]"""
+
+    @property
+    def latched(self) -> tuple[Fault, ...]:
+        """Faults that stop the gripper."""
+        return tuple(fault for fault in self._active() if fault.latched)
+
+    def newest(self, count: int) -> list[Fault]:
+        """The last faults, newest first; those that are active are among them."""
+        return list(islice(reversed(self._faults.values()), count))
+
+    def update(
+        self,
+        symptoms: Iterable[tuple[Symptom, Policy]],
+        dt: float,
+        now: Instant,
+    ) -> list[Fault]:
+        """Take in what is wrong now, and give the faults that are new.
+
+        Parameters
+        ----------
+        symptoms
+            Each with what is to be done about it.
+        dt
+            Time since the last call. [s]
+        now
+            The present.
+        """
+        present = {(s.cause, s.subject): (s, policy) for s, policy in symptoms}
+        for fault in tuple(self._active()):
+            known = present.pop((fault.cause, fault.subject), None)
+            self._away[fault.id] = 0.0 if known else self._away[fault.id] + dt
+            self._follow(fault, now)
+        return [self._raise(*each, now) for each in present.values()]
+
+    def acknowledge(self, fault_id: str, who: str, now: Instant) -> Fault:
+        """Note that somebody has seen it; done twice, the first one counts.
+
+        Raises
+        ------
+        NotFound
+            Unknown, or forgotten.
+        """
+        if fault_id not in self._faults:
+            message = f"there is no fault {fault_id!r}"
+            raise NotFound(message, key="id")
+        fault = self._faults[fault_id]
+        if fault.acknowledged_at is None:
+            fault = replace(fault, acknowledged_at=now.wall, acknowledged_by=who)
+            self._faults[fault_id] = fault
+            self._tell(f"{fault.cause} acknowledged by {who}", now)
+        return fault
+
+    def reset(self, now: Instant) -> None:
+        """Let go of what is latched.
+
+        Raises
+        ------
+        Refused
+            Something was not acknowledged yet, or is still wrong.
+        """
+        if (objection := self._objection()) is not None:
+            raise objection
+        for fault in self.latched:
+            self._faults[fault.id] = replace(fault, reset_at=now.wall)
+            del self._away[fault.id]
+        self._tell("reset", now)
+
+    def refusal(self) -> Refused:
+        """What to say to a command while something is latched."""
+        hints = (*self._unseen, "mend the cause", "POST .../reset", "POST .../enable")
+        message = f"the gripper is in fault: {_listed(self.latched)}"
+        return Refused(message, code="wrong-state", hints=hints)
+
+    @property
+    def _unseen(self) -> tuple[str, ...]:
+        """What is still to be done by those who have not seen it."""
+        return tuple(
+            f"POST .../faults/{fault.id}/acknowledge"
+            for fault in self.latched
+            if fault.acknowledged_at is None
+        )
+
+    def _active(self) -> Iterator[Fault]:
+        return (self._faults[fault_id] for fault_id in self._away)
+
+    def _follow(self, fault: Fault, now: Instant) -> None:
+        """Note whether the cause is gone, or back."""
+        gone = self._away[fault.id] > CLEARED_AFTER
+        if gone == (fault.cleared_at is not None):
+            return
+        cleared = replace(fault, cleared_at=now.wall if gone else None)
+        self._faults[fault.id] = cleared
+        self._tell(f"{fault.cause} is {'gone' if gone else 'back'}", now)
+        if not cleared.active:
+            del self._away[fault.id]
+
+    def _raise(self, symptom: Symptom, policy: Policy, now: Instant) -> Fault:
+        fault = Fault(
+            id=self._identify(),
+            gripper=self._gripper,
+            cause=symptom.cause,
+            subject=symptom.subject,
+            message=symptom.text,
+            reaction=policy.reaction,
+            latched=policy.latched,
+            raised_at=now.wall,
+        )
+        self._faults[fault.id] = fault
+        self._away[fault.id] = 0.0
+        self._tell(f"{fault.cause}: {fault.message}", now)
+        over = (name for name in tuple(self._faults) if name not in self._away)
+        for name in islice(over, max(len(self._faults) - HISTORY, 0)):
+            del self._faults[name]
+        return fault
+
+    def _tell(self, text: str, now: Instant) -> None:
+        self._journal.note(Happening.FAULT, text, now.wall)
+
+    def _objection(self) -> Refused | None:
+        if self._unseen:
+            unseen = [each for each in self.latched if each.acknowledged_at is None]
+            message = f"not acknowledged yet: {_listed(unseen)}"
+            return Refused(message, code="not-acknowledged", hints=self._unseen)
+        present = [each for each in self.latched if each.cleared_at is None]
+        if present:
+            message = f"still so: {_listed(present)}"
+            return Refused(message, code="cause-present", hints=("mend it first",))
+        return None
+
+
+def _listed(faults: Iterable[Fault]) -> str:
+    return "; ".join(fault.message for fault in faults)

@@ -1,0 +1,1 @@
+"""What is watched all the time, each thing by itself: samples in, symptoms out."""

@@ -1,0 +1,101 @@
+"""What has to be there for a motion: closed interlocks, and a lease that lasts."""
+
+from gripperd.control.command import Failure
+from gripperd.control.dispatch import Dispatch
+from gripperd.control.interlocks import Interlocks
+from gripperd.control.journal import Happening, Journal
+from gripperd.control.lease import Tenancy
+from gripperd.control.lifecycle import Lifecycle
+from gripperd.control.snapshot import Instant
+from gripperd.control.states import Event, Machine
+from gripperd.errors import Refused
+from gripperd.signals import Measurement
+
+ESTOPPED = Failure(
+    category="fault",
+    code="estopped",
+    message="the emergency stop is pressed, or its wire is cut",
+)
+NOT_ENABLED = Failure(
+    category="precondition",
+    code="not-enabled",
+    message="the external enable is not there",
+)
+LEASE_RAN_OUT = Failure(
+    category="cancelled",
+    code="lease-lost",
+    message="the lease it was given under ran out",
+)
+
+
+class Permission:
+    """Lets motions begin, and freezes them when what allowed them is gone.
+
+    It never moves anything and never lets go: whatever happens, the current stays.
+
+    Parameters
+    ----------
+    life, dispatch, journal
+        Of the gripper.
+    """
+
+    def __init__(self, life: Lifecycle, dispatch: Dispatch, journal: Journal) -> None:
+        self.tenancy = Tenancy()
+        self._interlocks = Interlocks()
+        self._life = life
+        self._dispatch = dispatch
+        self._journal = journal
+
+    def update(self, measured: Measurement) -> None:
+        """Take in the newest measurement."""
+        self._interlocks.update(measured)
+
+    def check(self) -> None:
+        """Refuse a motion that may not begin.
+
+        Raises
+        ------
+        Refused
+            An interlock is open.
+        """
+        forbidden = self._forbidden
+        if forbidden is not None:
+            raise Refused(forbidden.message, code=forbidden.code)
+
+    def check_reset(self) -> None:
+        """Refuse to leave an emergency stop that is still pressed.
+
+        Raises
+        ------
+        Refused
+            It is.
+        """
+        if self._interlocks.estopped:
+            hints = ("release it, then reset",)
+            raise Refused(ESTOPPED.message, code=ESTOPPED.code, hints=hints)
+
+    def enforce(self, now: Instant) -> None:
+        """End what may not go on."""
+        lease = self.tenancy.run_out(now)
+        if lease is not None:
+            text = f"the lease of {lease.owner} ran out"
+            self._journal.note(Happening.LEASE, text, now.wall)
+            self._end(LEASE_RAN_OUT, now)
+        if self._interlocks.estopped and self._life.state is not Machine.ESTOPPED:
+            self._dispatch.rest()
+            self._life.on(Event.ESTOP)
+            self._dispatch.end_all(ESTOPPED, now)
+            self._journal.note(Happening.FAULT, ESTOPPED.message, now.wall)
+        elif not self._interlocks.enabled:
+            self._end(NOT_ENABLED, now)
+
+    @property
+    def _forbidden(self) -> Failure | None:
+        if self._interlocks.estopped:
+            return ESTOPPED
+        return None if self._interlocks.enabled else NOT_ENABLED
+
+    def _end(self, failure: Failure, now: Instant) -> None:
+        if self._dispatch.running is not None:
+            self._dispatch.freeze()
+        self._dispatch.end_all(failure, now)

@@ -1,0 +1,159 @@
+"""Monitoring, faults and reactions of one gripper, as one.
+
+Every sample is watched, what is wrong is written down, and what the policy of a latched
+cause wants is carried out. As long as nothing is latched the current is left alone.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from gripperd.control.command import Failure
+from gripperd.control.dispatch import Dispatch
+from gripperd.control.faults import Fault, Faults
+from gripperd.control.hold import Hold
+from gripperd.control.lifecycle import Lifecycle
+from gripperd.control.monitors.output import overruled
+from gripperd.control.monitors.panel import Panel
+from gripperd.control.monitors.policy import STRENGTH, Cause, Policy, Reaction
+from gripperd.control.monitors.sight import Scatter, Sight
+from gripperd.control.monitors.tightened import check_tightened, tightened
+from gripperd.control.output import Output
+from gripperd.control.profile import Profile
+from gripperd.control.reaction import OPENING, Ease, Response, response
+from gripperd.control.snapshot import Instant
+from gripperd.control.states import Event, Grip, Machine
+from gripperd.model import Chain
+from gripperd.signals import Measurement
+
+BOUND = frozenset({Machine.FAULT_REACTION, Machine.FAULT, Machine.ESTOPPED})
+"""States in which nothing that is latched has anything left to stop."""
+
+STILL = frozenset({Reaction.HOLD, Reaction.FREEZE})
+"""Reactions that move nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """What is measured, and what it is to be judged by."""
+
+    measured: Measurement
+    scatter: Scatter
+    chain: Chain
+
+
+class Protection:
+    """Stands between what is seen and what may go on.
+
+    Parameters
+    ----------
+    faults
+        Where they are written down.
+    life, dispatch, output, hold
+        Of the gripper.
+    policies
+        What counts, and what is done about it.
+    """
+
+    def __init__(
+        self,
+        faults: Faults,
+        life: Lifecycle,
+        dispatch: Dispatch,
+        output: Output,
+        hold: Hold,
+        policies: Mapping[Cause, Policy],
+    ) -> None:
+        self._faults = faults
+        self._life = life
+        self._dispatch = dispatch
+        self._output = output
+        self._hold = hold
+        self._policies = policies
+        self._panel = Panel()
+        self._response: Response | None = None
+        self._reaction = Reaction.HOLD
+
+    @property
+    def reacting(self) -> bool:
+        """Whether a reaction is being carried out."""
+        return self._life.state is Machine.FAULT_REACTION
+
+    def watch(self, sample: Sample, dt: float, now: Instant) -> None:
+        """Look at one sample, and stop what may not go on."""
+        sight = self._sight(sample)
+        symptoms = [*self._panel.look(sight, dt), *overruled(self._output, sight)]
+        told = ((symptom, sight.policies[symptom.cause]) for symptom in symptoms)
+        raised = self._faults.update(told, dt, now)
+        latched = [fault for fault in raised if fault.latched]
+        if latched:
+            worst = max(latched, key=lambda fault: STRENGTH[fault.reaction])
+            self._respond(worst, worst.reaction, sight, now)
+        elif self._faults.latched and self._life.state not in BOUND:
+            # It outlived a lost link or an emergency stop; nothing moves for it again.
+            self._respond(self._faults.latched[0], Reaction.HOLD, sight, now)
+
+    def step(self, measured: Measurement, dt: float) -> None:
+        """Advance the reaction by one period."""
+        if not self.reacting or self._response is None:
+            self._response = None
+            return
+        ended = self._response.step(measured, dt)
+        self._output.current = self._response.ramp.current
+        if ended is None:
+            return
+        self._life.on(Event.REACTED)
+        self._response = None
+        if self._reaction in OPENING:
+            self._hold.settle(Grip.RELEASED if ended else Grip.UNKNOWN, None)
+
+    def freeze(self, measured: Measurement | None) -> None:
+        """Stop a reaction where it is."""
+        if self.reacting and self._response is not None and measured is not None:
+            self._response.rest(measured)
+            self._output.current = current = self._response.ramp.current
+            self._reaction, self._response = Reaction.FREEZE, Ease(current, current)
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a profile that wants to be watched less closely than the gripper is.
+
+        Raises
+        ------
+        Refused
+            With both limits.
+        """
+        check_tightened(self._policies, profile)
+
+    def _sight(self, sample: Sample) -> Sight:
+        held = self._dispatch.keep.held
+        profile = None if held is None else held.profile
+        reacts = self.reacting and self._reaction not in STILL
+        moving = reacts or self._life.state is Machine.STOPPING
+        return Sight(
+            measured=sample.measured,
+            scatter=sample.scatter,
+            current=self._output.written,
+            chain=sample.chain,
+            grip=self._hold.grip,
+            idle=not moving and self._dispatch.running is None,
+            policies=tightened(self._policies, profile),
+            profile=profile,
+        )
+
+    def _respond(
+        self, fault: Fault, reaction: Reaction, sight: Sight, now: Instant
+    ) -> None:
+        self._dispatch.rest()
+        failure = Failure(category="fault", code=fault.cause, message=fault.message)
+        self._dispatch.end_all(failure, now)
+        stronger = STRENGTH[reaction] > STRENGTH[self._reaction]
+        if self.reacting and not stronger:
+            return
+        self._life.on(Event.FAIL)
+        if self.reacting:
+            self._begin(reaction, sight)
+
+    def _begin(self, reaction: Reaction, sight: Sight) -> None:
+        self._reaction = reaction
+        self._response = response(reaction, self._output.current, sight)
+        if reaction in OPENING:
+            self._hold.settle(Grip.RELEASING, None)
