@@ -12,6 +12,8 @@ from gripperd.model.effect import Signal
 PHANTOM = 0.06
 """An addition that closes less of the first gap than this repairs its shape, and is
 not an effect of its own: no library has the formula of nature. [-]"""
+COMPLETE = 0.01
+"""The same of an addition that leaves nothing but noise. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
 HALF = 0.4
@@ -19,12 +21,12 @@ HALF = 0.4
 EXACT = 0.25
 """Share of :data:`PHANTOM` paid by what has but one form, as the first effect that
 leaves nothing to repair or as the one that could repair it. [-]"""
-LEAST_MORE = 45.0
+LEAST_MORE = 25.0
 """Gain below which a further effect is not believed: the first one was fitted with a
 form of ours. [nat]"""
-SEEN = 0.0025
+SEEN = 0.006
 """Change of a reading, of full scale, that a further effect makes at least in a sweep:
-sensors drift by as much. [-]"""
+common sensors drift by a third of it. [-]"""
 
 
 def worth(
@@ -60,7 +62,9 @@ def worth(
     gained = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
     signals |= {s for s, gain in gained.items() if gain > ELSEWHERE * further}
     closed = sum(null.fit.misfits[s] - larger.fit.misfits[s] for s in signals)
-    price = PHANTOM
+    noise = (2 * larger.fit.samples) ** 0.5
+    complete = problem.temperature == 1 and larger.excess < noise
+    price = COMPLETE if complete else PHANTOM
     for group in (best.candidates[:1], new):
         price *= EXACT if group and all(is_exact(one) for one in group) else 1.0
     # Far above the noise it counts what an addition takes of what was left.

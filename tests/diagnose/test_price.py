@@ -68,3 +68,16 @@ def test_what_closes_little_of_the_first_gap_repairs_a_shape(
     best = _rival(blank, creep, misfit=2000.0)
     larger = _rival(blank, creep, rub, misfit=misfit)
     assert worth(blank, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(("left", "worth_it"), [(320.0, True), (520.0, False)])
+def test_what_leaves_but_noise_is_an_effect_of_its_own_though_it_closes_little(
+    blank: Problem, left: float, *, worth_it: bool
+) -> None:
+    # 80 of 4700 are 1.7 %; 600 samples of noise have a misfit of 600 +- 35.
+    creep = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
+    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+    null = _rival(blank, misfit=5000.0)
+    best = _rival(blank, creep, misfit=left + 80.0)
+    larger = _rival(blank, creep, rub, misfit=left)
+    assert worth(blank, null, best, larger, 20.0) is worth_it
