@@ -6,10 +6,10 @@ from enum import StrEnum
 
 import numpy as np
 
+from gripperd.diagnose.found import Found
 from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rivalry import Contest
-from gripperd.diagnose.search import Found
 from gripperd.diagnose.structure import Structure, structures
 from gripperd.model.effect import Signal
 

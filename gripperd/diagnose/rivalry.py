@@ -7,9 +7,11 @@ import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.design import Member, design
+from gripperd.diagnose.found import Found
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Point, Problem
-from gripperd.diagnose.search import Found, Rival, added
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rival import Rival, added
 
 EXCHANGES = 2
 CHALLENGERS = 4
