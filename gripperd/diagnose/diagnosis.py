@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from gripperd.diagnose.agreement import beyond_use
 from gripperd.diagnose.believed import believed
@@ -129,6 +130,19 @@ def diagnose(
     InputError
         When no stage of the model can be compared with what was measured.
     """
+    # Threads cost small matrices more than they give, and would round otherwise.
+    with threadpool_limits(limits=1, user_api="blas"):
+        return _diagnosed(recording, model, tolerances, library, seed, progress)
+
+
+def _diagnosed(  # noqa: PLR0913  (those of diagnose)
+    recording: Recording,
+    model: Explanation,
+    tolerances: Mapping[str, float],
+    library: Mapping[str, type[Effect]],
+    seed: int,
+    progress: Progress,
+) -> Diagnosis:
     rng = np.random.default_rng(seed)
     progress("noise and drift", 0.05)
     contradicted = beyond_use(recording)
