@@ -135,7 +135,7 @@ def diagnose(
         return _diagnosed(recording, model, tolerances, library, seed, progress)
 
 
-def _diagnosed(  # noqa: PLR0913  (those of diagnose)
+def _diagnosed(
     recording: Recording,
     model: Explanation,
     tolerances: Mapping[str, float],
