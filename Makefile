@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: run test bench exam exam-peers lint clean
+.PHONY: run test bench fuzz exam exam-peers lint clean
 
 run: $(VENV)/installed
 	$(BIN)/gripperd run
@@ -14,6 +14,10 @@ test: $(VENV)/developing
 
 bench: $(VENV)/developing
 	$(BIN)/python -m tests.benchmarks
+
+# N inputs in all, a million unless told otherwise.
+fuzz: $(VENV)/developing
+	$(BIN)/python -m tests.fuzz $(N)
 
 # CASES, FAMILY (A, B, both), JOBS, SEED and RESULTS (JSON lines) are variables.
 EXAM = $(if $(CASES),--cases $(CASES)) $(if $(FAMILY),--family $(FAMILY)) \

@@ -8,6 +8,7 @@ from gripperd.control.command import Command, GraspOrder
 from gripperd.control.ledger import Key
 from gripperd.control.loop import Loop
 from gripperd.errors import NotFound
+from gripperd.link.buses import BusDesk, ReadBuses, ReadTraffic
 from gripperd.link.frames import decode
 
 
@@ -99,16 +100,24 @@ Request: TypeAlias = (
     | Stop
     | Enable
     | Disable
+    | ReadBuses
+    | ReadTraffic
 )
 
 
 class ControlDesk:
-    """Answers the service on behalf of the loops."""
+    """Answers the service on behalf of the loops and their buses."""
 
     def __init__(
-        self, loops: dict[str, Loop], *, real_time: bool, started_at: float
+        self,
+        loops: dict[str, Loop],
+        buses: BusDesk | None = None,
+        *,
+        real_time: bool,
+        started_at: float,
     ) -> None:
         self._loops = loops
+        self._buses = buses or BusDesk({})
         self._real_time = real_time
         self._started_at = started_at
 
@@ -119,6 +128,8 @@ class ControlDesk:
             overruns = sum(loop.overruns for loop in self._loops.values())
             names = tuple(self._loops)
             return Overview(names, self._real_time, overruns, self._started_at)
+        if isinstance(request, ReadBuses | ReadTraffic):
+            return self._buses.respond(request)
         if request.gripper not in self._loops:
             known = ", ".join(self._loops)
             message = f"there is no gripper {request.gripper!r}; there is {known}"

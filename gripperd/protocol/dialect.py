@@ -18,6 +18,8 @@ class Dialect(Protocol[Q, R]):
     def frame_length(self, request: Q, buffer: bytes | bytearray) -> int | None:
         """Octets of the reply at the start of a buffer, None while it is incomplete.
 
+        It is 0 for a request that has no reply, such as one to every module of a line.
+
         Raises
         ------
         BadReply

@@ -11,8 +11,10 @@ from starlette.responses import Response
 from gripperd.config import FailMode
 from gripperd.control.states import Machine
 from gripperd.errors import LinkError
+from gripperd.link.buses import BusFigures, ReadBuses
 from gripperd.link.control import Overview, ReadOverview
 from gripperd.service.body import router
+from gripperd.service.buses import BusDocument, bus_document
 from gripperd.service.context import Context, Daemon
 from gripperd.service.problems import ProblemResponse, problem
 from gripperd.service.rendering import Document, timestamp
@@ -57,6 +59,7 @@ class About(Document):
         description="The control loop has real-time priority; null while unknown."
     )
     overruns: int | None = Field(description="Periods of control that took too long.")
+    buses: tuple[BusDocument, ...] = Field(description="Empty while unknown.")
     warnings: tuple[str, ...]
 
 
@@ -93,9 +96,10 @@ async def info(daemon: Daemon) -> About:
     """Version, mode, models, and what to be warned of."""
     try:
         overview = await daemon.control.ask(ReadOverview(), Overview, OVERVIEW_WITHIN)
+        buses = await daemon.control.ask(ReadBuses(), list[BusFigures], OVERVIEW_WITHIN)
         control = "up"
     except LinkError as error:
-        overview, control = None, str(error)
+        overview, buses, control = None, [], str(error)
     grippers = daemon.settings.grippers
     return About(
         version=daemon.version,
@@ -107,6 +111,7 @@ async def info(daemon: Daemon) -> About:
         control_started_at=timestamp(overview.started_at) if overview else None,
         real_time=overview.real_time if overview else None,
         overruns=overview.overruns if overview else None,
+        buses=tuple(map(bus_document, buses)),
         warnings=tuple(_warnings(daemon, overview)),
     )
 

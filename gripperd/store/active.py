@@ -43,7 +43,7 @@ def _updated(gripper: GripperSettings, versions: Versions) -> GripperSettings:
         raise ConfigError(*damaged.complaints, hint) from None
     chain = model.chain()
     try:
-        check_driven(chain.regulator, gripper.output.module)
+        check_driven(chain.regulator, gripper.output.module, gripper.output.range)
     except ValueError as error:
         raise ConfigError(Complaint(str(error), source=model.source)) from error
     return replace(gripper, model=model, chain=chain)

@@ -1,0 +1,89 @@
+"""What a schema cannot see: whether a description agrees with itself."""
+
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
+
+from gripperd.config.complaint import Complaint, did_you_mean
+from gripperd.config.document import Document
+from gripperd.config.module_parts import VectorSection
+from gripperd.config.wording import shown
+from gripperd.protocol.encoding import Range, ValueType
+from gripperd.protocol.engineering import engineering
+from gripperd.protocol.itv import Set
+from gripperd.protocol.modules import InputModule, OutputModule
+from gripperd.units import MILLI
+
+AnyModule: TypeAlias = OutputModule | InputModule
+
+
+def contradictions(
+    module: AnyModule, vectors: Sequence[VectorSection], document: Document
+) -> Iterator[Complaint]:
+    """Everything in a description that cannot be meant."""
+    yield from _speechless(module, document)
+    yield from _uncounted(module, document)
+    yield from _contradicted(module, vectors, document)
+
+
+def _speechless(module: AnyModule, document: Document) -> Iterator[Complaint]:
+    if not module.dialects:
+        detail = "says nothing of modbus, dcon, adam_ascii or itv: it cannot be asked"
+        yield document.complaint((), detail)
+
+
+def _uncounted(module: AnyModule, document: Document) -> Iterator[Complaint]:
+    """Whole counts of mA would be too coarse to be meant."""
+    whole = module.modbus and module.modbus.encoding.type is not ValueType.F32
+    for name, each in module.ranges.items():
+        ends = (each.current_low / MILLI, each.current_high / MILLI)
+        if whole and (each.count_low, each.count_high) == ends:
+            detail = "counts are missing: integer registers do not count in mA"
+            yield document.complaint(("ranges", name), detail)
+        if module.modbus and module.modbus.range_code and each.code is None:
+            detail = "code is missing: there is a range_code to compare it with"
+            yield document.complaint(("ranges", name), detail)
+
+
+def _contradicted(
+    module: AnyModule, vectors: Sequence[VectorSection], document: Document
+) -> Iterator[Complaint]:
+    """Vectors that the rest of the description does not give."""
+    for place, vector in enumerate(vectors):
+        path = ("vectors", place)
+        if vector.range is not None and vector.range not in module.ranges:
+            hint = did_you_mean(vector.range, module.ranges)
+            yield document.complaint(path, f"{vector.range} is not a range; {hint}")
+            continue
+        if not vector.registers and vector.text is None:
+            yield document.complaint(path, "has neither registers nor text")
+        chosen = module.range(vector.range)
+        current = vector.current_mA * MILLI
+        said = _registers(module, chosen, current)
+        if vector.registers and said != tuple(vector.registers):
+            detail = f"{vector.current_mA:g} mA is {_hex(said)} by the rest of the file"
+            yield document.complaint(path, f"{detail}, not {_hex(vector.registers)}")
+        text = _text(module, chosen, current)
+        if vector.text is not None and vector.text != text:
+            detail = f'{vector.current_mA:g} mA is "{text}" by the rest of the file'
+            yield document.complaint(path, f"{detail}, not {shown(vector.text)}")
+
+
+def _registers(module: AnyModule, chosen: Range, current: float) -> tuple[int, ...]:
+    if module.modbus is None:
+        return ()
+    return module.modbus.encoding.encode(chosen.count(current))
+
+
+def _text(module: AnyModule, chosen: Range, current: float) -> str:
+    """What is sent to channel 0 of unit 1, or comes from it."""
+    if isinstance(module, InputModule):
+        return engineering(current)
+    if module.itv:
+        return str(Set(round(chosen.count(current))))
+    filled = {"channel": "0", "value": engineering(current)}
+    lines = (spoken.write.question(1, filled) for spoken in module.phrases.values())
+    return str(next(lines, ""))
+
+
+def _hex(words: Sequence[int]) -> str:
+    return " ".join(f"0x{word:04X}" for word in words) or "nothing"
