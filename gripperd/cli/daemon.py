@@ -64,9 +64,8 @@ def service(config: ConfigFile = None, http: Http = None) -> None:
     from gripperd.cli import serving
     from gripperd.cli.processes import run_process
     from gripperd.config import KEYLESS, is_loopback, load_settings
-    from gripperd.store import with_active_models
 
-    settings = with_active_models(load_settings(config))
+    settings = load_settings(config)
     log_to_stderr()
     address = host_and_port("--http", http)
     if address is not None and not is_loopback(address[0]):

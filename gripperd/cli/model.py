@@ -105,9 +105,7 @@ def activate(
     """Go by another version; refused while a gripper of the model may hold."""
     from gripperd.cli.versions import chosen
 
-    choice = chosen(config, gripper)
-    runs = choice.check_free()
-    _tell(choice.versions.activate(version), runs=runs, as_json=as_json)
+    _tell(*chosen(config, gripper).activate(version), as_json=as_json)
 
 
 @model_app.command()
@@ -117,23 +115,23 @@ def rollback(
     """Go back to the version that was active before; refused as for activate."""
     from gripperd.cli.versions import chosen
 
-    choice = chosen(config, gripper)
-    runs = choice.check_free()
-    _tell(choice.versions.rollback(), runs=runs, as_json=as_json)
+    _tell(*chosen(config, gripper).activate(None), as_json=as_json)
 
 
-def _tell(version: "Version", *, runs: bool, as_json: bool) -> None:
+def _tell(version: "Version", taken_up: bool, *, as_json: bool) -> None:
     if as_json:
         facts = {
             "active": version.number,
             "name": version.name,
-            "restart_needed": runs,
+            "taken_up": taken_up,
         }
         typer.echo(json.dumps(facts))
         return
     typer.echo(f"{version.name} is active")
-    if runs:
-        typer.echo("the daemon that runs takes it up when it is started again")
+    if taken_up:
+        typer.echo("the daemon that runs goes by it from now on")
+    else:
+        typer.echo("no daemon runs; one goes by it from its next start")
 
 
 def _shelf_table(shelf: "Shelf") -> Table:

@@ -11,7 +11,7 @@ from gripperd.cli.processes import bench_socket, control_socket, simulated
 from gripperd.config import Settings
 from gripperd.link.client import Client
 from gripperd.link.folder import private_folder
-from gripperd.service.app import create_app
+from gripperd.service.app import create_app, living
 from gripperd.service.server import serve as serve_http
 
 SERVICE_NICENESS = 5
@@ -43,7 +43,8 @@ async def service(settings: Settings, address: tuple[str, int] | None) -> None:
 
     host, port = address or (settings.http.host, settings.http.port)
     try:
-        await serve_http(app, host, port, ready)
+        async with living(app):
+            await serve_http(app, host, port, ready)
     finally:
         for client in filter(None, (control_client, bench_client)):
             await client.close()

@@ -1,5 +1,7 @@
 """A diagnosis on a terminal."""
 
+from collections.abc import Mapping
+
 from rich.console import Console, Group
 from rich.padding import Padding
 from rich.table import Table
@@ -9,8 +11,9 @@ from gripperd.cli.model import PIPE_WIDTH
 from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import keys_of, public
-from gripperd.diagnose.statement import span, statement, summary
+from gripperd.diagnose.statement import offered, reasons, span, statement, summary
 from gripperd.diagnose.where import Finding
 from gripperd.model.effect import Signal
 
@@ -44,9 +47,14 @@ def show(diagnosis: Diagnosis) -> None:
         ("where the recalibrated model is off", _where(diagnosis)),
         (
             "how far measured and predicted are apart, on held-out runs",
-            _gaps(diagnosis),
+            _gaps(diagnosis.gaps, diagnosis.main) if diagnosis.gaps else None,
+        ),
+        (
+            "the same where no other sweep went: extrapolation",
+            _extrapolation(diagnosis),
         ),
         ("what is left depends", _lines(diagnosis.signature)),
+        ("what could be taken off", _lines(list(map(offered, diagnosis.corrections)))),
         ("what to run next", _lines(_next(diagnosis))),
         ("left out", _lines(_rejected(diagnosis))),
         ("contradictions", _lines(_contradictions(diagnosis))),
@@ -112,15 +120,20 @@ def _region(finding: Finding) -> str:
     return ", ".join(said)
 
 
-def _gaps(diagnosis: Diagnosis) -> Table | None:
-    if not diagnosis.gaps:
+def _extrapolation(diagnosis: Diagnosis) -> Group | None:
+    beyond = diagnosis.extrapolation
+    if beyond is None:
         return None
+    return Group(Text(", ".join(beyond.runs)), _gaps(beyond.gaps, diagnosis.main))
+
+
+def _gaps(gaps: Mapping[Signal, Gap], main: Signal | None) -> Table:
     table = Table(
         "", "as it came", "recalibrated", "with what was found", "noise floor", box=None
     )
-    for signal, gap in diagnosis.gaps.items():
+    for signal, gap in gaps.items():
         sizes = (gap.before, gap.recalibrated, gap.after, gap.noise_floor)
-        style = "bold" if signal is diagnosis.main else ""
+        style = "bold" if signal is main else ""
         table.add_row(
             signal.value, *(_sized(signal, size) for size in sizes), style=style
         )
@@ -156,10 +169,9 @@ def _contradictions(diagnosis: Diagnosis) -> list[str]:
 
 
 def _untested(diagnosis: Diagnosis) -> list[str]:
-    reasons: dict[str, list[str]] = {}
-    for name, reason in diagnosis.untested.items():
-        reasons.setdefault(reason, []).append(public(name))
-    return [f"{reason}: {', '.join(names)}" for reason, names in reasons.items()]
+    return [
+        f"{reason}: {', '.join(names)}" for reason, names in reasons(diagnosis).items()
+    ]
 
 
 def _lines(lines: "list[str] | tuple[str, ...]") -> Text | None:

@@ -1,4 +1,4 @@
-"""The versions a command is about, and whether a daemon lets them be changed."""
+"""The versions a command is about, and what a daemon that runs makes of a change."""
 
 import asyncio
 from dataclasses import dataclass
@@ -6,17 +6,10 @@ from pathlib import Path
 
 from gripperd.config import GripperSettings, Settings, load_settings
 from gripperd.config.complaint import did_you_mean
-from gripperd.control.snapshot import GripperState
-from gripperd.control.states import Grip, Machine
-from gripperd.errors import LinkLost, NotFound, Refused
+from gripperd.errors import LinkLost, NotFound
 from gripperd.link.client import Client
-from gripperd.link.control import ReadState
 from gripperd.store import Version, Versions, versions_of
-
-WITHIN = 2.0
-"""Longest wait for control; it answers in milliseconds. [s]"""
-EMPTY = frozenset({Grip.RELEASED, Grip.NO_PART, Grip.PART_LOST})
-AT_REST = frozenset({Machine.READY, Machine.DISABLED})
+from gripperd.store.activation import Activation, activation
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,33 +20,39 @@ class Choice:
     gripper: GripperSettings
     versions: Versions
 
-    def check_free(self) -> bool:
-        """Refuse to change the model of what may hold something.
+    def activate(self, which: int | str | None) -> tuple[Version, bool]:
+        """Make another version the active one, also in a daemon that runs.
+
+        Parameters
+        ----------
+        which
+            Number or name; None for the one that was active before.
 
         Returns
         -------
-        Whether a daemon of these settings runs.
+        The version, and whether a daemon of these settings goes by it now.
 
         Raises
         ------
+        NotFound
+            There is no such version.
         Refused
-            A gripper with this model moves, holds, or may hold.
+            It cannot be used, or a gripper with this model moves or may hold something.
         LinkError
-            A daemon runs and does not answer.
+            A daemon runs and does not answer; nothing was changed.
         """
-        return asyncio.run(self._ask_all())
+        found = activation(self.settings, self.gripper.name, which)
+        return found.version, asyncio.run(self._take_up(found))
 
-    async def _ask_all(self) -> bool:
+    async def _take_up(self, found: Activation) -> bool:
         # Imported here: a prediction needs none of what the processes are made of.
         from gripperd.cli.processes import control_socket
 
         control = Client(control_socket(self.settings), "the control process")
         try:
-            for name, gripper in self.settings.grippers.items():
-                if gripper.model.name == self.gripper.model.name:
-                    state = await control.ask(ReadState(name), GripperState, WITHIN)
-                    _check(state, gripper)
+            await found.take_up(control)
         except LinkLost:
+            found.keep()
             return False
         finally:
             await control.close()
@@ -77,20 +76,6 @@ def chosen(config: Path | None, gripper: str | None) -> Choice:
         raise NotFound(message, key="--gripper")
     found = grippers[gripper] if gripper else next(iter(grippers.values()))
     return Choice(settings, found, versions_of(settings, found))
-
-
-def _check(state: GripperState, gripper: GripperSettings) -> None:
-    low = gripper.chain.regulator.current_low
-    vented = state.current is not None and state.current <= low
-    if state.machine in AT_REST and (
-        state.grip in EMPTY or (state.grip is Grip.UNKNOWN and vented)
-    ):
-        return
-    message = (
-        f"{state.name} is {state.machine}, {state.grip}: its model stays as it is"
-        " while it may hold something"
-    )
-    raise Refused(message, code="object-held", hints=("release first",))
 
 
 def summary(version: Version, active: int) -> dict[str, object]:

@@ -51,7 +51,7 @@ class GraspOrder:
     target: float
     """Valve current [A] or grip force per jaw [N], as the mode says."""
     model: str
-    """Name of the model the order was checked with."""
+    """Name of the model it was checked with; once it runs, of the one it goes by."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from gripperd.control.command import GraspOrder
 from gripperd.control.profile import Mode
 from gripperd.errors import DomainError, Refused
-from gripperd.model import Chain, Prediction
+from gripperd.model import Chain, Prediction, PressedObject
 from gripperd.units import KILO, MILLI
 
 ROUNDING = 1e-9
@@ -46,9 +46,9 @@ def evaluate(order: GraspOrder, chain: Chain) -> Evaluation:
     """
     profile = order.profile
     chain.check_fits(profile.diameter)
-    current = order.target
+    current, short = order.target, None
     if order.mode is Mode.FORCE:
-        current = chain.current_for(order.target, profile.pressed)
+        current, short = _current_for(order.target, profile.pressed, chain)
     prediction = chain.predict(current, profile.pressed)
     force = prediction.grip_force
     return Evaluation(
@@ -58,8 +58,21 @@ def evaluate(order: GraspOrder, chain: Chain) -> Evaluation:
         damage_force=profile.damage_force,
         slip_margin=force / profile.slip_force,
         crush_margin=profile.damage_force / force if force > 0 else float("inf"),
-        reasons=tuple(_reasons(order, chain, current, force)),
+        reasons=(short,) if short else tuple(_reasons(order, chain, current, force)),
     )
+
+
+def _current_for(
+    force: float, pressed: PressedObject, chain: Chain
+) -> tuple[float, str | None]:
+    """Current for a force; the highest where none gives it, and what it does give."""
+    highest = chain.regulator.current_high
+    try:
+        return chain.current_for(force, pressed), None
+    except DomainError as beyond:
+        if beyond.key != "pressure_kPa":
+            raise
+        return highest, f"{force:.2f} N per jaw cannot be had: {beyond}"
 
 
 def _reasons(
@@ -67,11 +80,12 @@ def _reasons(
 ) -> list[str]:
     profile, regulator = order.profile, chain.regulator
     reasons = []
+    most = float(chain.outlet.pressure(regulator.current_high))
     if not regulator.current_low <= current <= regulator.current_high:
         reasons.append(
             f"it takes {current / MILLI:.2f} mA, and the valve takes"
             f" {regulator.current_low / MILLI:g} to {regulator.current_high / MILLI:g}"
-            f" mA (up to {regulator.pressure_high / KILO:g} kPa)"
+            f" mA (up to {most / KILO:g} kPa)"
         )
     highest = profile.damage_force / profile.crush_margin
     if force > highest * (1 + ROUNDING):

@@ -45,10 +45,13 @@ class Execution:
     def __init__(
         self, command: Command, chain: Chain, current: float, wall: float
     ) -> None:
-        self.command = replace(command, status=Status.RUNNING, started_at=wall)
+        order = command.order and replace(command.order, model=chain.name)
+        self.command = replace(
+            command, status=Status.RUNNING, started_at=wall, order=order
+        )
         self.motion: Grasp | Release
-        if command.order is not None:
-            self.motion = Grasp(command.order, chain, current)
+        if order is not None:
+            self.motion = Grasp(order, chain, current)
             self.grip = Grip.CLOSING
         else:
             self.motion = Release(chain, current)

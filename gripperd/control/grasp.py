@@ -105,7 +105,7 @@ class Grasp:
 
     def rest(self, measured: Measurement) -> None:
         """Let the jaws rest where they are."""
-        self.ramp.rest(reached(measured, self._chain.regulator))
+        self.ramp.rest(reached(measured, self._chain))
 
     def result(self, outcome: Outcome, measured: Measurement) -> GraspResult:
         """What was found, with the model's view beside it."""
@@ -169,7 +169,7 @@ class Grasp:
         if opening is not None:
             return opening < profile.diameter - profile.smaller
         pressure = measured.pressure.value
-        wanted = float(self._chain.regulator.pressure(self.ramp.current))
+        wanted = float(self._chain.outlet.pressure(self.ramp.current))
         return pressure is None or pressure > FOLLOWED * wanted
 
     def _contact(self, measured: Measurement) -> Outcome | None:

@@ -59,7 +59,7 @@ class Gripper:
         self._output = Output()
         self._measured: Measurement | None = None
         self._senses = Senses(chain)
-        self._hold = Hold()
+        self.hold = Hold()
         self._execution: Execution | None = None
         self._dwell = 0.0
         self._samples = 0
@@ -99,8 +99,6 @@ class Gripper:
 
         Returns the current to write at once, None where it stays. [A]
         """
-        self.machine = after(self.machine, Event.STOP)
-        self._dwell = 0.0
         self._freeze()
         self._end_all(STOPPED, now)
         return self._output.change()
@@ -122,11 +120,6 @@ class Gripper:
             return None
         self._interrupt(CANCELLED, now)
         return self._output.change()
-
-    @property
-    def grip(self) -> Grip:
-        """What the jaws hold."""
-        return self._hold.grip
 
     @property
     def attached(self) -> bool:
@@ -151,16 +144,22 @@ class Gripper:
         return GripperState(
             name=self.name,
             machine=self.machine,
-            grip=self._hold.grip,
+            grip=self.hold.grip,
             available_transitions=possible(self.machine),
             adopted=self._output.adopted,
             current=self._output.current if self.attached else None,
             measured=measured,
             age=None if measured is None else now.monotonic - measured.time,
             command=None if running is None else running.command.id,
-            holding=self._hold.profile,
+            holding=self.hold.profile,
             link=self.link,
+            model=self.chain.name,
         )
+
+    def use(self, chain: Chain) -> None:
+        """Go by another model from the next period on; nothing is written."""
+        self.chain = chain
+        self._senses = Senses(chain)
 
     def link_lost(self, why: str, now: Instant) -> None:
         """Nothing can be read or written; the module keeps the last current."""
@@ -169,7 +168,7 @@ class Gripper:
             return
         self.machine = after(self.machine, Event.LINK_LOST)
         self._end_all(Failure(category="fault", code="link-lost", message=why), now)
-        self._hold.settle(Grip.UNKNOWN, None)
+        self.hold.settle(Grip.UNKNOWN, None)
 
     def period(self, raw: Measurement, dt: float, now: Instant) -> float | None:
         """Advance by one period on a fresh sample.
@@ -180,7 +179,7 @@ class Gripper:
         """
         measured = self._measured = self._senses.judge(raw, dt)
         self.link = "up"
-        self._hold.update(measured, dt)
+        self.hold.update(measured, dt)
         match self.machine:
             case Machine.OFFLINE:
                 self.machine = after(self.machine, Event.LINK_UP)
@@ -200,18 +199,19 @@ class Gripper:
         self._notice_foreign_write(measured, now)
         self._execute(measured, dt, now)
         self._expire(now)
-        self._hold.look(adopted=self._output.adopted and self._execution is None)
+        self.hold.look(adopted=self._output.adopted and self._execution is None)
         return self._output.change()
 
     def _check_free(self) -> None:
-        objection = self._objection
+        objection = self.objection
         if objection and not self.ledger.releases_first:
             raise Refused(objection, code="object-held", hints=("release first",))
 
     @property
-    def _objection(self) -> str | None:
+    def objection(self) -> str | None:
+        """Why a grasp now could let go of something; None when it could not."""
         low = self.chain.regulator.current_low
-        return self._hold.objection(vented=self._output.current <= low)
+        return self.hold.objection(vented=self._output.current <= low)
 
     def _attach(self, measured: Measurement) -> None:
         """Take over what is there; nothing is written before this."""
@@ -219,7 +219,7 @@ class Gripper:
         if measured.current.value is None or self._samples < ATTACH_SAMPLES:
             return
         self._output.adopt(measured.current.value)
-        self._hold.adopt()
+        self.hold.adopt()
         self.machine = after(self.machine, Event.ADOPT)
         if self._enabled:
             self.enable()
@@ -227,7 +227,7 @@ class Gripper:
     def _start_next(self, now: Instant) -> None:
         if (command := self.ledger.next()) is None:
             return
-        if command.order is not None and self._objection:
+        if command.order is not None and self.objection:
             self.ledger.close(command, now.wall, failure=OBJECT_HELD)
             return
         current = self._output.current
@@ -238,7 +238,7 @@ class Gripper:
             return
         self.machine = after(self.machine, Event.START)
         self.ledger.put(self._execution.command)
-        self._hold.settle(self._execution.grip, None)
+        self.hold.settle(self._execution.grip, None)
 
     def _execute(self, measured: Measurement, dt: float, now: Instant) -> None:
         if (execution := self._execution) is None:
@@ -258,25 +258,25 @@ class Gripper:
         assert self._execution is not None
         command, self._execution = self._execution.command, None
         order = command.order
-        self._hold.settle(ending.grip, None if order is None else order.profile.name)
+        self.hold.settle(ending.grip, None if order is None else order.profile.name)
         self.ledger.close(
             command, now.wall, result=ending.result, failure=ending.failure
         )
 
     def _end_all(self, failure: Failure, now: Instant) -> None:
         if self._execution is not None:
-            self._end(Ending(self._hold.interrupted, None, failure), now)
+            self._end(Ending(self.hold.interrupted, None, failure), now)
         for command in self.ledger.waiting():
             self.ledger.close(command, now.wall, failure=failure)
 
     def _interrupt(self, failure: Failure, now: Instant) -> None:
-        self.machine = after(self.machine, Event.STOP)
-        self._dwell = 0.0
         self._freeze()
-        self._end(Ending(self._hold.interrupted, None, failure), now)
+        self._end(Ending(self.hold.interrupted, None, failure), now)
 
     def _freeze(self) -> None:
         """Let the jaws rest where they are: the pressure lags behind the current."""
+        self.machine = after(self.machine, Event.STOP)
+        self._dwell = 0.0
         if self._execution is not None and self._measured is not None:
             self._execution.motion.rest(self._measured)
             self._output.current = self._execution.motion.ramp.current

@@ -89,12 +89,10 @@ class Loop:
     def _tell(self) -> None:
         """Log what has changed: states, and commands that began or ended."""
         gripper = self.gripper
-        state = (gripper.machine, gripper.grip)
+        state = (gripper.machine, gripper.hold.grip)
         if state != self._told:
             self._told = state
-            self._log.info(
-                "state", machine=gripper.machine, grip=gripper.grip, link=gripper.link
-            )
+            self._log.info("state", machine=state[0], grip=state[1], link=gripper.link)
         newest = gripper.ledger.newest(LONGEST_QUEUE + 1)
         for command in reversed(newest):
             if self._statuses.get(command.id) is not command.status:

@@ -9,6 +9,7 @@ from gripperd.control.profile import Mode
 from gripperd.control.setpoint import within
 from gripperd.errors import DomainError
 from gripperd.model import Chain, Direction, PressedObject
+from gripperd.model.effect import acts_in_valve
 
 CLEARANCE = 2e-3
 """How far before the largest allowed object the slow ramp begins. [m]"""
@@ -30,6 +31,9 @@ class Plan:
         """Size of the object, once it is touched. [m]"""
         self._order = order
         self._chain = chain
+        kept = tuple(each for each in chain.effects if not acts_in_valve(each))
+        self._line = replace(chain, effects=kept)
+        """The same with the straight line of the regulator, which has no top."""
         self._pressed = order.profile.pressed
 
     def touch(self, size: float) -> None:
@@ -40,9 +44,14 @@ class Plan:
     @property
     def near(self) -> float:
         """Current at which free jaws stand just before the largest object. [A]."""
-        profile, linkage = self._order.profile, self._chain.linkage
+        profile, chain = self._order.profile, self._chain
         widest = profile.diameter + profile.larger + CLEARANCE
-        return float(self._chain.current(0.0, min(widest, linkage.open_width)))
+        opening = min(widest, chain.linkage.open_width)
+        try:
+            return within(chain.regulator, float(chain.current(0.0, opening)))
+        except DomainError:
+            # Never so near by the model, so there is no reason to hurry.
+            return chain.regulator.current_low
 
     @property
     def goal(self) -> float:
@@ -75,8 +84,7 @@ class Plan:
 
     def current_per_newton(self, force: float) -> float:
         """Change of current for a change of grip force, at the object. [A/N]."""
-        more = self._chain.current_for(force + 1.0, self._pressed)
-        return more - self._chain.current_for(force, self._pressed)
+        return self._step(force, force + 1.0, Direction.CONTRACTING)
 
     def reduction(self, force: float) -> float:
         """By how much to lower the current to get from a force to the safe side. [A].
@@ -86,8 +94,7 @@ class Plan:
         """
         profile = self._order.profile
         safe = min(profile.damage_force / profile.crush_margin, force)
-        eased = self._chain.current_for(safe, self._pressed, Direction.EXTENDING)
-        return self._chain.current_for(force, self._pressed) - eased
+        return -self._step(force, safe, Direction.EXTENDING)
 
     def expected(
         self, current: float, opening: float, *, eased: bool
@@ -106,5 +113,23 @@ class Plan:
         return max(middle, 0.0), hypot(std, half / sqrt(3))
 
     def _for(self, force: float) -> float:
-        current = self._chain.current_for(force, self._pressed)
-        return within(self._chain.regulator, current)
+        """Current for a grip force; the highest where no current gives it. [A]."""
+        highest, pressed = self._chain.regulator.current_high, self._pressed
+        opening = pressed.diameter - force / pressed.stiffness
+        if float(self._chain.grip_force(highest, opening)) <= force:
+            return highest
+        return within(self._chain.regulator, self._chain.current_for(force, pressed))
+
+    def _step(self, start: float, end: float, direction: Direction) -> float:
+        """Change of current from a force while closing to one in a direction. [A]."""
+        try:
+            return self._between(self._chain, start, end, direction)
+        except DomainError:
+            # What is felt is more than the valve of the model can give.
+            return self._between(self._line, start, end, direction)
+
+    def _between(
+        self, chain: Chain, start: float, end: float, direction: Direction
+    ) -> float:
+        after = chain.current_for(end, self._pressed, direction)
+        return after - chain.current_for(start, self._pressed)

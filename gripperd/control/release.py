@@ -42,4 +42,4 @@ class Release:
 
     def rest(self, measured: Measurement) -> None:
         """Let the jaws rest where they are."""
-        self.ramp.rest(reached(measured, self._chain.regulator))
+        self.ramp.rest(reached(measured, self._chain))

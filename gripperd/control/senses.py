@@ -98,11 +98,8 @@ def grip_force(measured: Measurement, chain: Chain) -> Reading:
     pressure, opening = measured.pressure.value, measured.opening.value
     if pressure is None or opening is None:
         return measured.grip
-    length = chain.muscle.rest_length
-    contraction = float(chain.linkage.contraction(opening, length))
     try:
-        tension = chain.static.tension(pressure, contraction)
+        force = float(chain.grip_at(pressure, opening))
     except DomainError as error:
         return Reading.bad(str(error))
-    force = float(chain.linkage.grip_force(tension, contraction, length))
     return Reading(max(force, 0.0), Quality.SUBSTITUTED, measured.grip.cause)

@@ -2,7 +2,8 @@
 
 from collections import deque
 
-from gripperd.model import Regulator
+from gripperd.errors import DomainError
+from gripperd.model import Chain, Regulator
 from gripperd.signals import Measurement
 
 LAG = 0.12
@@ -53,7 +54,7 @@ class Ramp:
         Parameters
         ----------
         reached
-            Current of a true valve at the measured pressure, None without a sensor.
+            Current that the model has for the measured pressure, None without one.
             It is believed as far as the ramp has been there lately: a valve that is
             off must not turn the stop into a jump. [A]
         """
@@ -65,7 +66,13 @@ class Ramp:
         self.current = min(max(reached, low), high)
 
 
-def reached(measured: Measurement, regulator: Regulator) -> float | None:
-    """Current of a true valve at the measured pressure, if there is one. [A]."""
+def reached(measured: Measurement, chain: Chain) -> float | None:
+    """Current that the model has for the measured pressure, if there is one. [A]."""
     pressure = measured.pressure.value
-    return None if pressure is None else float(regulator.current(pressure))
+    if pressure is None:
+        return None
+    try:
+        return float(chain.outlet.current(pressure))
+    except DomainError:
+        # Noise carries the pressure of a spent supply past what the valve can give.
+        return None

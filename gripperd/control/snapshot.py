@@ -37,3 +37,5 @@ class GripperState:
     """Profile of what is held."""
     link: str
     """``up``, or why there is none."""
+    model: str
+    """Name of the model that it goes by."""

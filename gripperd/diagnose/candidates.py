@@ -1,11 +1,13 @@
 """What could be missing: every effect of the library, and every constant."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
+from types import MappingProxyType
 
 import numpy as np
 
+from gripperd.diagnose.constants import PARTS
 from gripperd.diagnose.course import is_table
 from gripperd.diagnose.problem import Problem
 from gripperd.model.effect import Effect, Stage
@@ -22,8 +24,10 @@ TEMPORAL = frozenset({
     "channel_delay",
 })  # fmt: skip
 """Effects in which time or order counts, beside those with a memory."""
-PARTS = ("muscle", "valve", "gripper")
-"""Parts of a model whose constants can be wrong; the rest is how it was measured."""
+SAME: Mapping[str, str] = MappingProxyType({
+    "valve.pressure_low": "valve_offset", "valve.pressure_high": "valve_gain",
+})  # fmt: skip
+"""Constants that are wrong in just the way in which an effect shows."""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -87,11 +91,18 @@ def candidates(
             if effect.stage in (Stage.SENSOR, Stage.GRIPPER)
             or effect.signal in problem.signals
         ]
-    for index, constant in enumerate(problem.constants):
-        sliding = constant.path == "muscle.friction_coefficient"
-        if constant.path.partition(".")[0] in PARTS and (travelled or not sliding):
-            found.append(Candidate(WRONG + constant.path, None, index))
+    found += _wrong_constants(library, problem, travelled=travelled)
     return tuple(found), unseen
+
+
+def _wrong_constants(
+    library: Mapping[str, type[Effect]], problem: Problem, *, travelled: bool
+) -> Iterator[Candidate]:
+    for index, constant in enumerate(problem.constants):
+        is_part = constant.path.partition(".")[0] in PARTS
+        unseen = constant.path == "muscle.friction_coefficient" and not travelled
+        if is_part and not unseen and SAME.get(constant.path) not in library:
+            yield Candidate(WRONG + constant.path, None, index)
 
 
 def is_exact(candidate: Candidate) -> bool:

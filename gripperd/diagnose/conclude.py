@@ -11,12 +11,13 @@ from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rivalry import Contest
 from gripperd.diagnose.search import Found
 from gripperd.diagnose.structure import Structure, structures
+from gripperd.model.effect import Signal
 
 STRUCTURED = 1e-4
 """Chance below which what is left is no noise, over all ways of looking at it."""
 VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
-EXPLAINED = 0.9
+EXPLAINED = 0.75
 """Share of the structure that a right explanation takes away. [-]"""
 
 
@@ -40,6 +41,11 @@ class Conclusion:
     share: float
     """Share of the structure that the best explanation takes away. [-]"""
 
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """Those in which structure is left."""
+        return tuple(dict.fromkeys(one.signal for one in _remaining(self.left)))
+
 
 def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     """Weigh what was found against what is left.
@@ -55,7 +61,7 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     after = _structured(problem, contest.best.fit)
     excess, left = _excess(before), _excess(after)
     share = 1 - left / excess if excess > 0 else 1.0
-    remains = _remains(after)
+    remains = bool(_remaining(after))
     if not contest.best.candidates:
         verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
     elif remains and share < EXPLAINED:
@@ -65,6 +71,11 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     else:
         verdict = Verdict.NAMED
     return Conclusion(verdict, after, share)
+
+
+def unusable() -> Conclusion:
+    """Give no verdict on a recording that contradicts itself."""
+    return Conclusion(Verdict.UNUSABLE, (), 0.0)
 
 
 def not_confirmed(conclusion: Conclusion) -> Conclusion:
@@ -82,7 +93,9 @@ def _excess(found: Sequence[Structure]) -> float:
     return float(np.max([max(one.excess, 0.0) for one in found], initial=0.0))
 
 
-def _remains(found: Sequence[Structure]) -> bool:
-    return any(
-        one.p_value * len(found) < STRUCTURED and one.size > VISIBLE for one in found
-    )
+def _remaining(found: Sequence[Structure]) -> list[Structure]:
+    return [
+        one
+        for one in found
+        if one.p_value * len(found) < STRUCTURED and one.size > VISIBLE
+    ]

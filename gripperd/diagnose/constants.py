@@ -9,9 +9,13 @@ import numpy as np
 from gripperd.diagnose.stages import Explanation
 from gripperd.model.effect import Signal
 
-PLAIN = 0.012
+PLAIN = 0.0115
 """Tolerance of a constant without a stated one, relative, one sigma: parts are made to
 about 2 %, and anywhere within is as likely (2 % / root 3). [-]"""
+TOLERATED = 2.0
+"""How far a part may be off, in sigma of its tolerance; beyond it is another part."""
+NUISANCE = 2.6
+"""The same of what has no tolerance, such as the zero of a sensor."""
 
 ZERO = 1e-3
 """Zero error that any transmitter has, of full scale, one sigma. [-]"""
@@ -39,6 +43,8 @@ MUSCLE = (
     "diameter", "braid_angle", "wall_thickness", "elastic_modulus",
     "friction_coefficient",
 )  # fmt: skip
+PARTS = ("muscle", "valve", "gripper")
+"""Parts of a model, with tolerances; the rest is how it was measured."""
 VALVE = ("pressure_low", "pressure_high")
 GRIPPER = ("open_width", "ratio", "spring_preload", "spring_rate")
 
@@ -58,6 +64,11 @@ class Constant:
     def moves(self) -> frozenset[Signal]:
         """Signals it changes."""
         return _MOVES.get(self.path) or _MOVES[self.path.partition(".")[0]]
+
+    @property
+    def reach(self) -> float:
+        """How far it may be off, in sigma."""
+        return TOLERATED if self.path.partition(".")[0] in PARTS else NUISANCE
 
     @property
     def course(self) -> int | None:

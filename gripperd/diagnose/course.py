@@ -11,7 +11,7 @@ from scipy.optimize import isotonic_regression
 from gripperd.diagnose.noise import Noise, quick_noise
 from gripperd.diagnose.recording import Kind, Recording, Run
 from gripperd.diagnose.smoothing import Smooth, smooth
-from gripperd.diagnose.travel import travel
+from gripperd.diagnose.travel import leaning, travel
 from gripperd.model.compiled import compiled
 from gripperd.model.memory import begin, lag
 from gripperd.model.track import Array
@@ -31,6 +31,8 @@ MOVES = 5e-5
 """Change of current that is a new command: 0.3 % of the span. [A]"""
 LEAP = 0.02
 """Share of the range between neighbours from which points are no sweep. [-]"""
+LEAST = 20
+"""Samples that a plane is laid through."""
 SHORTEST_PAUSE = 2.0
 """Nor is a shorter gap a pause. [s]"""
 
@@ -121,6 +123,8 @@ def _course(
     if "pressure" in smoothed and sweep.has("current"):
         plain = smoothed["pressure"]
         smoothed["pressure"] = _beside_command(sweep, plain, noises)
+    if {"pressure", "contraction", "force"} <= smoothed.keys():
+        smoothed["force"] = _beside_pressure(sweep, smoothed, noises)
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat),
@@ -178,8 +182,36 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
         beside = smooth(time, pressure - followed, variance)
         if beside.likelihood > best.likelihood:
             rate = beside.rate + np.gradient(followed, time)
-            best = Smooth(beside.value + followed, rate, beside.likelihood)
+            best = beside._replace(value=beside.value + followed, rate=rate)
     return best
+
+
+def _beside_pressure(
+    sweep: Run, known: Mapping[str, Smooth], noises: Mapping[str, Noise]
+) -> Smooth:
+    """Force as pressure and contraction make it, plus a smooth difference.
+
+    Within one sweep a twisted plane for each way is close enough; it has the corners
+    that no trend can follow. Taken when likelier than a trend alone.
+    """
+    time, force = sweep.columns["time"], sweep.columns["force"]
+    pressure, contraction = known["pressure"].value, known["contraction"].value
+    rubbing = leaning(pressure)
+    plane = np.column_stack([
+        np.ones_like(time), pressure, contraction, pressure * contraction,
+        rubbing, rubbing * pressure,
+    ])  # fmt: skip
+    plane /= np.maximum(np.abs(plane).max(axis=0), 1e-300)
+    good = np.isfinite(force) & np.isfinite(plane).all(axis=1)
+    if not np.isfinite(plane).all() or good.sum() < LEAST:
+        return known["force"]
+    followed = plane @ np.linalg.lstsq(plane[good], force[good], rcond=1e-6)[0]
+    variance = noises["force"].slow_variance
+    beside = smooth(time, force - followed, variance)
+    if beside.likelihood <= known["force"].likelihood:
+        return known["force"]
+    rate = beside.rate + np.gradient(followed, time)
+    return beside._replace(value=beside.value + followed, rate=rate)
 
 
 def _directions(contraction: Smooth | None, time: Array) -> Array:

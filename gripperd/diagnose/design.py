@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripperd.diagnose.candidates import Candidate, amplitudes
+from gripperd.diagnose.constants import NUISANCE
 from gripperd.diagnose.gram import Fit, Gram
-from gripperd.diagnose.problem import FREED, WITHIN, Point, Problem
+from gripperd.diagnose.problem import FREED, Point, Problem
 from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -72,10 +73,14 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
     sensitivities = problem.sensitivities(point)
     build = _Builder(problem, residuals)
     starts = (point.shifts / point.widths).tolist()
-    for start, width, response in zip(
-        starts, point.widths.tolist(), sensitivities, strict=True
+    for start, width, reach, response in zip(
+        starts,
+        point.widths.tolist(),
+        problem.reach(point).tolist(),
+        sensitivities,
+        strict=True,
     ):
-        build.add(response, width, start, (-WITHIN, WITHIN))
+        build.add(response, width, start, (-reach, reach))
     nuisance = np.arange(build.width, dtype=np.intp)
     acting = tuple(_acting(problem, point, effect, build) for effect in point.effects)
     members: list[Member] = []
@@ -88,7 +93,7 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
                 continue
             assert candidate.constant is not None
             response = sensitivities[candidate.constant]
-            column = build.add(response, FREED, 0.0, (-WITHIN, WITHIN))
+            column = build.add(response, FREED, 0.0, (-NUISANCE, NUISANCE))
             columns, scales = [column], [FREED]
         else:
             columns, scales = _response(problem, point, candidate.effect, build)

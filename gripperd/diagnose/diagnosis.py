@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from gripperd.diagnose.agreement import beyond_use
 from gripperd.diagnose.believed import believed
 from gripperd.diagnose.candidates import Candidate, candidates
 from gripperd.diagnose.conclude import (
@@ -13,14 +14,23 @@ from gripperd.diagnose.conclude import (
     Verdict,
     conclude,
     not_confirmed,
+    unusable,
 )
+from gripperd.diagnose.correction import Offer, offers
 from gripperd.diagnose.course import is_table
+from gripperd.diagnose.extrapolation import (
+    Extrapolation,
+    apart,
+    extrapolation,
+    swept,
+)
 from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
 from gripperd.diagnose.holdout import Split, split
 from gripperd.diagnose.named import Named, named
 from gripperd.diagnose.next_experiment import Proposal, proposal
+from gripperd.diagnose.polish import polished
 from gripperd.diagnose.problem import Point, Problem
-from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.recording import Contradiction, Recording
 from gripperd.diagnose.resting import with_resting_sign
 from gripperd.diagnose.rivalry import Contest, contest
 from gripperd.diagnose.search import Found, Rival, search
@@ -54,10 +64,15 @@ class Diagnosis:
     main: Signal | None
     """The signal the story is about."""
     held_out: tuple[str, ...]
+    """Sweeps the gaps are judged on."""
+    extrapolation: Extrapolation | None
+    """The gaps beyond what was searched; none when nothing held out lies there."""
     proposal: Proposal | None
     """What to run next; none when nothing is open."""
     signature: tuple[str, ...]
     """What is left, in words; empty unless something is unexplained."""
+    corrections: tuple[Offer, ...]
+    """Of what is unexplained: no physics, and never part of a model."""
     untested: Mapping[str, str]
     """Effects this recording cannot show, and why."""
     seed: int
@@ -114,8 +129,12 @@ def diagnose(
     """
     rng = np.random.default_rng(seed)
     progress("noise and drift", 0.05)
-    recording = thinned(believed(recording), MOST_ROWS)
+    contradicted = beyond_use(recording)
+    recording = recording if contradicted else believed(recording)
+    recording = thinned(recording, MOST_ROWS)
     parts = split(problem_of(recording, model, tolerances))
+    if contradicted:
+        return _without_verdict(recording, contradicted, parts, seed)
     listed, untested = candidates(library, parts.train, _columns(recording))
     progress("friction at rest", 0.2)
     train = with_resting_sign(parts.train, listed)
@@ -171,20 +190,27 @@ def _told(
     # The noise of a table is not known, so what is left cannot be held against it.
     judge = found.problem if is_table(train.courses) else train
     conclusion = conclude(judge, found, best)
-    start = Point(np.zeros(len(train.constants)))
-    points = tuple(
+    start, base, nearest = (
         with_usual_sign(train, point)
-        for point in (start, found.null.fit.point, best.best.fit.point)
+        for point in (
+            Point(np.zeros(len(train.constants))),
+            found.null.fit.point,
+            best.best.fit.point,
+        )
     )
-    judged = gaps(parts.test, points, train.noises, np.random.default_rng(seed))
+    points = (start, base, nearest)
+    inside, outside = apart(parts)
+    judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     entries = named(found, best, judged)
     main = _main(best, judged)
     if main is not None and judged[main].after > WORSE * judged[main].recalibrated:
         conclusion = not_confirmed(conclusion)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
-        judged = {s: replace(gap, after=gap.recalibrated) for s, gap in judged.items()}
+        points = (start, base, base)
+        judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     unexplained = conclusion.verdict is Verdict.UNEXPLAINED
+    left = conclusion.signals or ((main,) if main else ())
     return Diagnosis(
         recording=recording,
         verdict=conclusion.verdict,
@@ -192,15 +218,48 @@ def _told(
         where=findings(train, train.residuals(found.null.fit.point)),
         gaps=judged,
         main=main,
-        held_out=parts.runs,
+        held_out=swept(parts, inside),
+        extrapolation=extrapolation(parts, outside, points, seed),
         proposal=_next(found.problem, best),
         signature=signature(train, best, conclusion) if unexplained else (),
+        corrections=tuple(offers(parts, left, base, nearest)) if unexplained else (),
         untested=untested | dict.fromkeys(found.faint, "leaves no trace here"),
         seed=seed,
         split=parts,
         found=found,
         contest=best,
         conclusion=conclusion,
+    )
+
+
+def _without_verdict(
+    recording: Recording,
+    contradicted: tuple[Contradiction, ...],
+    parts: Split,
+    seed: int,
+) -> Diagnosis:
+    """Say what contradicts what, and nothing of the model."""
+    start = Point(np.zeros(len(parts.train.constants)))
+    null = Rival((), polished(parts.train, start))
+    known = dict.fromkeys((*contradicted, *recording.contradictions))
+    return Diagnosis(
+        recording=replace(recording, contradictions=tuple(known)),
+        verdict=Verdict.UNUSABLE,
+        named=(),
+        where=(),
+        gaps={},
+        main=None,
+        held_out=(),
+        extrapolation=None,
+        proposal=None,
+        signature=(),
+        corrections=(),
+        untested={},
+        seed=seed,
+        split=parts,
+        found=Found(parts.train, null, null, (), 0.0, {}, (), np.empty(0)),
+        contest=Contest(null, (), ()),
+        conclusion=unusable(),
     )
 
 

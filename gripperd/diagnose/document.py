@@ -1,12 +1,13 @@
 """A diagnosis as the document that files and replies have, in the units of its keys."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
 
 from gripperd.diagnose.columns import BY_QUANTITY, Column
 from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.correction_document import correction_document
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import keys_of, number, public
@@ -62,7 +63,11 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
             }
             for one in recording.rejected
         ],
-        "unexplained": {"signature": list(diagnosis.signature), "correction": "none"},
+        "unexplained": {
+            "signature": list(diagnosis.signature),
+            "correction": "gp" if diagnosis.corrections else "none",
+            "corrections": [correction_document(one) for one in diagnosis.corrections],
+        },
         "untested": dict(diagnosis.untested),
         "contradictions": [_contradiction(one) for one in recording.contradictions],
         "remarks": list(recording.remarks),
@@ -74,25 +79,32 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
 
 
 def gap_document(diagnosis: Diagnosis, signal: Signal) -> Document:
-    """Write the gap of one signal."""
-    column, gap = BY_QUANTITY[signal.value], diagnosis.gaps[signal]
+    """Write the gap of one signal, and beyond what was searched its own."""
+    column, beyond = BY_QUANTITY[signal.value], diagnosis.extrapolation
     return {
         "signal": column.name,
         "unit": column.unit,
-        **_gap(gap, column),
-        "ci95_after": [number(end / column.scale) for end in gap.ci95_after],
-        "heldout_runs": list(diagnosis.held_out),
+        **_gap(diagnosis.gaps[signal], column, diagnosis.held_out),
+        "extrapolation": (
+            _gap(beyond.gaps[signal], column, beyond.runs)
+            if beyond and signal in beyond.gaps
+            else None
+        ),
     }
 
 
-def _gap(gap: Gap, column: Column) -> Document:
+def _gap(gap: Gap, column: Column, runs: Sequence[str]) -> Document:
     sizes = {
         "rmse_before": gap.before,
         "rmse_recalibrated": gap.recalibrated,
         "rmse_after": gap.after,
         "noise_floor": gap.noise_floor,
     }
-    return {key: number(value / column.scale) for key, value in sizes.items()}
+    return {
+        **{key: number(value / column.scale) for key, value in sizes.items()},
+        "ci95_after": [number(end / column.scale) for end in gap.ci95_after],
+        "heldout_runs": list(runs),
+    }
 
 
 def _effect(diagnosis: Diagnosis, entry: Named) -> Document:

@@ -111,6 +111,17 @@ def public(name: str) -> str:
     return f"{WRONG}{path.partition('.')[0]}.{key_of_constant(path).text}"
 
 
+def plain(name: str) -> str:
+    """Name of a candidate in a sentence.
+
+    >>> plain("parameter:muscle.diameter"), plain("valve_lag")
+    ('a wrong diameter', 'valve lag')
+    """
+    if name.startswith(WRONG):
+        return f"a wrong {key_of_constant(name.removeprefix(WRONG)).title}"
+    return name.replace("_", " ")
+
+
 def number(value: float) -> float | None:
     """Round a number for others; none when it is not finite."""
     return rounded(value) if isfinite(value) else None

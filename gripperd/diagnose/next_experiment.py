@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gripperd.diagnose.course import STILL, TRAVEL, Course
+from gripperd.diagnose.key import plain
 from gripperd.diagnose.polish import slopes
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Kind
@@ -76,7 +77,7 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
 
 
 def _title(one: Rival, other: Rival) -> str:
-    own = [name for name in one.names if name not in other.names]
+    own = [plain(name) for name in one.names if name not in other.names]
     return " and ".join(own or ["the model without it"])
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from gripperd.diagnose.design import limits, problem_prior
 from gripperd.diagnose.gram import bounded
-from gripperd.diagnose.problem import WITHIN, Point, Problem
+from gripperd.diagnose.problem import Point, Problem
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -69,7 +69,7 @@ def polished(problem: Problem, point: Point) -> Polished:
         Where to start; its effects stay, their numbers move.
     """
     coordinates = _coordinates(problem, point)
-    low, high = _limits(point, coordinates)
+    low, high = _limits(problem, point, coordinates)
     cost, white = _cost(problem, point, coordinates)
     covariance: Array = np.empty((0, 0))
     damping = 0.0
@@ -83,7 +83,7 @@ def polished(problem: Problem, point: Point) -> Polished:
         for _ in range(TRIALS):
             damped = matrix + damping * np.diag(np.diag(matrix))
             aim = bounded(damped, pull + damped @ here, low, high)
-            there = _moved(point, coordinates, aim)
+            there = _moved(problem, point, coordinates, aim)
             new_cost, new_white = _cost(problem, there, coordinates)
             if new_cost < cost:
                 point, cost, white = there, new_cost, new_white
@@ -99,9 +99,11 @@ def polished(problem: Problem, point: Point) -> Polished:
     return Polished(point, cost, misfits, samples, coordinates, covariance)
 
 
-def _limits(point: Point, coordinates: Sequence[Coordinate]) -> tuple[Array, Array]:
+def _limits(
+    problem: Problem, point: Point, coordinates: Sequence[Coordinate]
+) -> tuple[Array, Array]:
     """Least and largest of constants, in widths, and coordinates, in units."""
-    reach = np.full(point.shifts.size, WITHIN)
+    reach = problem.reach(point)
     low = np.array([c.low / c.unit for c in coordinates])
     high = np.array([c.high / c.unit for c in coordinates])
     return np.concatenate([-reach, low]), np.concatenate([reach, high])
@@ -133,14 +135,17 @@ def _vector(point: Point, coordinates: Sequence[Coordinate]) -> Array:
     return np.concatenate([point.shifts / point.widths, np.array(values)])
 
 
-def _moved(point: Point, coordinates: Sequence[Coordinate], vector: Array) -> Point:
+def _moved(
+    problem: Problem, point: Point, coordinates: Sequence[Coordinate], vector: Array
+) -> Point:
     count = point.shifts.size
     acting: dict[str, Effect] = {effect.name: effect for effect in point.effects}
     for coordinate, value in zip(coordinates, vector[count:].tolist(), strict=True):
         bounded = min(max(value * coordinate.unit, coordinate.low), coordinate.high)
         effect = acting[coordinate.effect]
         acting[coordinate.effect] = replace(effect, **{coordinate.parameter: bounded})
-    shifts = np.clip(vector[:count], -WITHIN, WITHIN) * point.widths
+    reach = problem.reach(point)
+    shifts = np.clip(vector[:count], -reach, reach) * point.widths
     return replace(point, shifts=shifts, effects=tuple(acting.values()))
 
 
@@ -190,7 +195,7 @@ def slopes(
             step = -step
         vector = here.copy()
         vector[count + index] += step
-        there = problem.explanation(_moved(point, coordinates, vector))
+        there = problem.explanation(_moved(problem, point, coordinates, vector))
         effect = acting[coordinate.effect]
         columns.append(problem.change(there, base, effect, tracks, step))
     return np.concatenate(

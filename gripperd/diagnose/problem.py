@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.diagnose.constants import Constant, moved
+from gripperd.diagnose.constants import NUISANCE, Constant, moved
 from gripperd.diagnose.course import Course
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.stages import (
@@ -24,8 +24,6 @@ from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array, Track
 
-WITHIN = 2.6
-"""How far a constant may move, in widths of its prior; beyond it is another part."""
 FREED = 12.0
 """Prior of a wrong constant, in its stated sigma."""
 
@@ -117,6 +115,12 @@ class Problem:
     def signals(self) -> tuple[Signal, ...]:
         """Those explained anywhere."""
         return tuple(dict.fromkeys(block.signal for block in self.blocks))
+
+    def reach(self, point: Point) -> Array:
+        """How far each constant may be off, in widths of its prior."""
+        reach = np.array([constant.reach for constant in self.constants])
+        reach[list(point.freed)] = NUISANCE
+        return reach
 
     def explanation(self, point: Point) -> Explanation:
         """Give the model at a point."""

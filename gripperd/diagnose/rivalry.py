@@ -8,14 +8,14 @@ import numpy as np
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.design import Member, design
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import WITHIN, Point, Problem
+from gripperd.diagnose.problem import Point, Problem
 from gripperd.diagnose.search import Found, Rival, added
 
 EXCHANGES = 2
 CHALLENGERS = 4
 """Rivals of each effect that are fitted in full."""
-SURE = 4.6
-"""A rival behind by less could be true: odds of 100 to 1. [nat]"""
+SURE = 3.0
+"""A rival behind by less could be true: odds of 20 to 1. [nat]"""
 MISSHAPED = 0.06
 """Share of the first gap within which a difference of misfit says only that neither
 formula is that of nature. [-]"""
@@ -95,7 +95,7 @@ def _challengers(
     """Give the best without a candidate, and with each of its strongest rivals."""
     own = best.candidates[index]
     rest = (*best.candidates[:index], *best.candidates[index + 1 :])
-    without = Rival(rest, polished(problem, _removed(best.fit.point, own)))
+    without = Rival(rest, polished(problem, _removed(problem, best.fit.point, own)))
     base = without.fit.point
     taken = set(best.names)
     around = design(problem, base, [one for one in listed if one.name not in taken])
@@ -115,10 +115,12 @@ def _challengers(
     ]
 
 
-def _removed(point: Point, candidate: Candidate) -> Point:
+def _removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
     if candidate.effect is not None:
         return point.without(candidate.name)
     assert candidate.constant is not None
-    shifts = point.shifts.copy()
-    shifts[candidate.constant] = np.clip(shifts[candidate.constant], -WITHIN, WITHIN)
-    return replace(point, shifts=shifts, freed=point.freed - {candidate.constant})
+    held = replace(point, freed=point.freed - {candidate.constant})
+    reach = problem.reach(held)
+    return replace(
+        held, shifts=np.clip(held.shifts, -reach * held.widths, reach * held.widths)
+    )

@@ -41,6 +41,9 @@ MISFIT = 2.0
 """Mean square of what the best explanation leaves, from which it is not noise. [-]"""
 LEAST_MORE = 45.0
 """The same of a further effect: the first one was fitted with a form of ours. [nat]"""
+SEEN = 0.0025
+"""Change of a reading, of full scale, that a further effect makes at least in a sweep:
+sensors drift by as much. [-]"""
 HOPELESS = 150.0
 """The same of the null, from which no explanation can reach the noise. [-]"""
 COOLINGS = 3
@@ -273,6 +276,8 @@ def _worth(
         return gain > threshold
     if problem.temperature == 1 and gain <= LEAST_MORE:
         return False
+    if _change(problem, best.fit.point, larger.fit.point) < SEEN:
+        return False
     new = [one for one in larger.candidates if one.name not in best.names]
     further = best.fit.cost - larger.fit.cost
     signals = {signal for one in new for signal in acts_on(problem, one)}
@@ -286,6 +291,15 @@ def _worth(
     # Far above the noise it counts what an addition takes of what was left.
     halves = problem.temperature > 1 and further > HALF * best.fit.cost
     return halves or further > price * closed
+
+
+def _change(problem: Problem, one: Point, other: Point) -> float:
+    """How far apart two explanations are where they differ most, of full scale."""
+    expected = [problem.expected(problem.explanation(each)) for each in (one, other)]
+    return max(
+        float(np.percentile(np.abs(a - b), 95)) / problem.full_scale[block.signal]
+        for block, a, b in zip(problem.blocks, *expected, strict=True)
+    )
 
 
 def acts_on(problem: Problem, candidate: Candidate) -> frozenset[Signal]:

@@ -28,6 +28,10 @@ VENTED = 0.03
 """Below this share of the highest pressure a muscle is empty. [-]"""
 HELD = 0.03
 """Within this share of the highest pressure it is held. [-]"""
+LINKAGE = 0.01
+"""How well any linkage is known, of the largest grip: joints have play. [-]"""
+WANDERS = 3.0
+"""Time in which what is left of the force in the grip forgets. [s]"""
 LONG_ENOUGH = 10.0
 """A shorter hold says nothing about drift. [s]"""
 
@@ -106,7 +110,34 @@ def _noises(problem: Problem, point: Point) -> dict[Signal, Noise]:
             [*_vented(problem, signal), *_quiet(problem, residuals, indices)]
         )
         found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
-    return found
+    return _handed_on(found, problem)
+
+
+def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, Noise]:
+    """Give the grip what is wrong with the force that it is predicted from.
+
+    That is its drift and what its noise leaves in the smooth column, beside the play
+    of the joints. What lasts longest is taken for what forgets soonest: it is no part
+    of a grasp that must be told from another.
+    """
+    force, grip, linkage = (
+        noises.get(Signal.FORCE), noises.get(Signal.GRIP), problem.model.linkage,
+    )  # fmt: skip
+    if force is None or grip is None or linkage is None:
+        return noises
+    places = [block for block in problem.blocks if block.signal is Signal.GRIP]
+    sweeps = [problem.courses[place.course] for place in places]
+    own = quick_noise(
+        sweep.column("grip")[place.good]
+        for sweep, place in zip(sweeps, places, strict=True)
+    )
+    kept = float(np.mean([s.smooth["force"].leverage for s in sweeps]))
+    wander = kept * force.slow_variance / linkage.ratio**2
+    drift = grip.drift**2 + (force.drift / linkage.ratio) ** 2
+    play = (LINKAGE * problem.full_scale[Signal.GRIP]) ** 2
+    slow = (wander + drift + play) ** 0.5
+    std = min(grip.std, own.std)
+    return noises | {Signal.GRIP: Noise(std, own.correlation, slow, WANDERS)}
 
 
 def _vented(problem: Problem, signal: Signal) -> list[Quiet]:

@@ -1,9 +1,11 @@
 """What nobody could name, in words: what it depends on and what it does not."""
 
 from gripperd.diagnose.conclude import Conclusion
+from gripperd.diagnose.key import plain
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rivalry import Contest
 from gripperd.diagnose.structure import Structure
+from gripperd.model.effect import Signal
 
 CLEAR = 1e-6
 """Chance below which a dependence is told."""
@@ -17,7 +19,8 @@ def signature(
     """Describe what is left, most telling first."""
     words = [f"share of the gap that known effects explain: {conclusion.share:.0%}"]
     if best.best.names:
-        words.append(f"nearest known effects: {', '.join(best.best.names)}")
+        nearest = ", ".join(map(plain, best.best.names))
+        words.append(f"nearest known effects: {nearest}")
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)
@@ -29,14 +32,22 @@ def _told(signal: str, views: list[Structure]) -> list[str]:
     if not clear:
         return []
     words = [
-        f"{signal}: depends on {one.along}"
+        f"{signal}: depends on {_spelt(one)}"
         + (", as one wave" if one.share > LINE else "")
         for one in clear
     ]
     plain = {one.along for one in clear}
     words += [
-        f"{signal}: not on {one.along}"
+        f"{signal}: not on {_spelt(one)}"
         for one in views
         if one.p_value > 0.01 and one.along not in plain
     ]
     return words
+
+
+def _spelt(view: Structure) -> str:
+    """What a person calls a way of looking at it."""
+    if view.along == "cells":
+        first = "current" if view.signal is Signal.PRESSURE else "pressure"
+        return f"{first} and contraction together"
+    return view.along.replace(" x direction", " times the direction of travel")

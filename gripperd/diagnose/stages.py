@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripperd.diagnose.course import Course
-from gripperd.diagnose.travel import travel
+from gripperd.diagnose.travel import leaning, travel
 from gripperd.model import Linkage, Muscle, Regulator
 from gripperd.model.effect import (
     Effect,
@@ -123,6 +123,8 @@ def _happened(explanation: Explanation, signal: Signal, track: Track) -> Array:
     """What the chain does. [SI]."""
     if signal is Signal.FORCE:
         track = _strained(explanation, track)
+    if signal is Signal.GRIP:
+        track = replace(track, direction=leaning(track.force))
     value = _START[signal](explanation, track)
     for effect in explanation.effects:
         if effect.signal is signal and effect.stage is not Stage.SENSOR:
@@ -197,8 +199,7 @@ def passed_on(
     if signal is Signal.PRESSURE:
         return 0.0
     length = "length" if "length" in course.smooth else "contraction"
-    force = course.column("force")
-    sharp = replace(track, contraction=course.level(length), force=force)
+    sharp = replace(track, contraction=course.level(length))
     rough = [_START[signal](explanation, one) for one in (sharp, track)]
     for effect in explanation.effects:
         if effect.signal is signal and not effect.rest().size:

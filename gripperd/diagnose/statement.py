@@ -2,15 +2,18 @@
 
 from collections.abc import Sequence
 
-from gripperd.diagnose.candidates import WRONG
 from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.correction import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.key import key_of_constant, keys_of
+from gripperd.diagnose.key import key_of_constant, keys_of, plain, public
 from gripperd.diagnose.named import Named
+from gripperd.diagnose.recording import Contradiction
 from gripperd.diagnose.where import Finding
 from gripperd.model.effect import Signal
 
+SHOWN = 4
+"""Sweeps named in a sentence."""
 PLACES = {"time": 0, "pressure": 0, "contraction": 3}
 """Decimal places of a region, in the unit of the file."""
 
@@ -30,14 +33,17 @@ def summary(diagnosis: Diagnosis) -> str:
         case Verdict.NONE:
             return f"Nothing is missing: what is left is noise{gap}."
         case Verdict.UNUSABLE:
-            return "The recording contradicts itself: no verdict can rest on it."
+            said = "; ".join(map(contradicted, diagnosis.recording.contradictions))
+            return (
+                f"The recording contradicts itself, no verdict can rest on it: {said}."
+            )
 
 
 def statement(diagnosis: Diagnosis, entry: Named) -> str:
     """Say what one effect or constant does and what to do about it, in one sentence."""
     if entry.effect is None:
         return f"{_corrected(diagnosis, entry)}; correct the model{_or(entry)}."
-    title, worth = _plain(entry.name).capitalize(), _size(entry.signal, entry.size)
+    title, worth = plain(entry.name).capitalize(), _size(entry.signal, entry.size)
     size = f"worth {worth} of {entry.signal.value} (rms)"
     if diagnosis.verdict is Verdict.UNEXPLAINED:
         return f"{title} comes nearest, {size}, and does not explain what is seen."
@@ -103,7 +109,7 @@ def _closed(diagnosis: Diagnosis) -> str:
 
 def _open(diagnosis: Diagnosis) -> str:
     rivals = [
-        f"{_plain(one.name)} from {listed(list(map(_plain, one.equivalents)), 'or')}"
+        f"{plain(one.name)} from {listed(list(map(plain, one.equivalents)), 'or')}"
         for one in diagnosis.named
         if one.equivalents
     ]
@@ -113,19 +119,13 @@ def _open(diagnosis: Diagnosis) -> str:
 def _or(entry: Named) -> str:
     if not entry.equivalents:
         return ""
-    others = listed(list(map(_plain, entry.equivalents)), "or")
+    others = listed(list(map(plain, entry.equivalents)), "or")
     return f"; this recording cannot tell it from {others}"
 
 
 def _size(signal: Signal, size: float) -> str:
     column = BY_QUANTITY[signal.value]
     return f"{size / column.scale:.3g} {column.unit}".rstrip()
-
-
-def _plain(name: str) -> str:
-    if name.startswith(WRONG):
-        return f"a wrong {key_of_constant(name.removeprefix(WRONG)).title}"
-    return name.replace("_", " ")
 
 
 def span(finding: Finding, name: str) -> str:
@@ -138,6 +138,55 @@ def span(finding: Finding, name: str) -> str:
     # Adding 0 turns what would read as -0 into 0.
     ends = [f"{round(end, places) + 0.0:.{places}f}" for end in (low, high)]
     return " to ".join(dict.fromkeys(ends))
+
+
+def contradicted(found: Contradiction) -> str:
+    """Say what contradicts what.
+
+    Written as "force_N of a, b differs from that of c by 310 N at the same place".
+    """
+    runs, others = (_some(names) for names in (found.runs, found.others))
+    return (
+        f"{found.column} of {runs} differs from that of {others} by"
+        f" {abs(found.difference):.3g} {found.unit} at the same place, and repeats by"
+        f" {found.spread:.2g} {found.unit}"
+    )
+
+
+def offered(offer: Offer) -> str:
+    """Say what a correction is worth, and what it is not."""
+    found, worth = offer.correction, offer.worth
+    column = BY_QUANTITY[found.signal.value]
+    on = [
+        one.quantity
+        for one, length in zip(found.regressors, found.lengths, strict=True)
+        if length is not None
+    ]
+    without, corrected = (
+        f"{size / column.scale:.3g} {column.unit}".rstrip()
+        for size in (worth.without, worth.corrected)
+    )
+    return (
+        f"A smooth correction of the {found.signal.value} by {listed(on) or 'nothing'}"
+        f" leaves {corrected} of {without} on data it never saw, of which"
+        f" {worth.inside:.0%} lie inside its fence; it is no physics, and no part of"
+        " the model"
+    )
+
+
+def reasons(diagnosis: Diagnosis) -> dict[str, list[str]]:
+    """Give the effects that were not tested, by the reason why."""
+    found: dict[str, list[str]] = {}
+    for name, reason in diagnosis.untested.items():
+        found.setdefault(reason, []).append(public(name))
+    return found
+
+
+def _some(names: Sequence[str]) -> str:
+    shown = list(names[:SHOWN])
+    if more := len(names) - len(shown):
+        shown.append(f"{more} more")
+    return listed(shown)
 
 
 def listed(words: Sequence[str], last: str = "and") -> str:

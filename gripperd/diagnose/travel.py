@@ -1,9 +1,26 @@
-"""Direction of travel along a measured way, which noise does not turn round."""
+"""Direction of travel: along a measured way, or of what sticks under a load."""
 
 import numpy as np
 
 from gripperd.model.compiled import compiled
+from gripperd.model.memory import begin, stop
 from gripperd.model.track import Array
+
+STUCK = 0.06
+"""Half the way back, as a share of the range of the load, in which joints stick. [-]"""
+STEADY = 0.01
+"""The same of the load itself: a steady one turns nothing. [-]"""
+
+
+def leaning(load: Array) -> Array:
+    """Sign of friction in joints under a load, between the signs while they stick.
+
+    Jaws on an object go by less than is measured; their load tells which way.
+    """
+    radius = max(STUCK * float(np.ptp(load)), STEADY * float(np.max(np.abs(load))))
+    if not radius > 0:
+        return np.zeros_like(load)
+    return stop(load, radius, begin()) / radius
 
 
 def travel(way: Array, least: float) -> Array:

@@ -4,15 +4,25 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
 
 from gripperd.diagnose.course import Course, is_table
 from gripperd.diagnose.stages import INPUTS
+from gripperd.diagnose.travel import leaning
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 
 Mask: TypeAlias = NDArray[np.bool_]
 
 TRANSIENT = 0.06
 """A command that moves by more than this share of the span in one sample is a step."""
+
+NEIGHBOURS = 5
+OFF = 3.0
+"""Standard deviations of a mean of neighbours from which a smooth column is off. [-]"""
+
+LOOSE = 0.98
+"""Sign of friction from which joints that stuck have come loose. [-]"""
 
 
 def usable(course: Course, signal: Signal, noise: float) -> Mask:
@@ -34,12 +44,39 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
     if signal is Signal.GRIP:
         # Without contact the jaws are moved by the muscle alone and press on nothing.
         good &= (measured > 5 * noise) & np.isfinite(course.level("force"))
+        good &= ~_missed(course, "force")
+        good &= ~_turning(leaning(course.level("force")))
     sweeps = "pressure" in course.smooth and not is_table((course,))
     if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):
         good &= ~_transients(course)
     if signal is Signal.FORCE:
-        good &= ~_reversals(course)
+        good &= ~_reversals(course) & ~_missed(course, "pressure")
     return good
+
+
+def _missed(course: Course, name: str) -> Mask:
+    """Samples next to a corner that the smooth column cuts.
+
+    There the neighbours lie off to one side, which their noise alone does not.
+    """
+    known = course.smooth.get(name)
+    if known is None or known.variance <= 0:
+        return np.zeros(len(course), dtype=bool)
+    off = np.nan_to_num(course.column(name) - known.value)
+    mean = uniform_filter1d(off, NEIGHBOURS, mode="nearest")
+    return _widened(np.abs(mean) > OFF * (known.variance / NEIGHBOURS) ** 0.5, 2)
+
+
+def _turning(sign: Array) -> Mask:
+    """Samples while friction turns round: which way the joints rub is not known."""
+    loose = np.flatnonzero(np.abs(sign) > LOOSE)
+    if not loose.size:
+        return np.zeros(sign.size, dtype=bool)
+    index = np.arange(sign.size)
+    after = np.minimum(np.searchsorted(loose, index), loose.size - 1)
+    before = np.maximum(np.searchsorted(loose, index, side="right") - 1, 0)
+    turning = np.sign(sign[loose[before]]) != np.sign(sign[loose[after]])
+    return _widened(turning | (index < loose[0]), 2)
 
 
 def _reversals(course: Course) -> Mask:

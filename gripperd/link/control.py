@@ -3,13 +3,18 @@
 from typing import TypeAlias
 
 import msgspec
+import structlog
 
 from gripperd.control.command import Command, GraspOrder
 from gripperd.control.ledger import Key
 from gripperd.control.loop import Loop
+from gripperd.control.swap import swap
 from gripperd.errors import NotFound
 from gripperd.link.buses import BusDesk, ReadBuses, ReadTraffic
 from gripperd.link.frames import decode
+from gripperd.link.model import ModelMessage, chain_of
+
+log = structlog.get_logger()
 
 
 class Overview(msgspec.Struct, frozen=True):
@@ -84,6 +89,16 @@ class Enable(msgspec.Struct, frozen=True, tag=True):
     gripper: str
 
 
+class UseModel(msgspec.Struct, frozen=True, tag=True):
+    """Let these grippers go by another model, all of them or none.
+
+    The reply has a :class:`GripperState` of each.
+    """
+
+    grippers: tuple[str, ...]
+    model: ModelMessage
+
+
 class Disable(msgspec.Struct, frozen=True, tag=True):
     """Allow no more commands; the reply is a :class:`GripperState`."""
 
@@ -102,6 +117,7 @@ Request: TypeAlias = (
     | Disable
     | ReadBuses
     | ReadTraffic
+    | UseModel
 )
 
 
@@ -130,11 +146,19 @@ class ControlDesk:
             return Overview(names, self._real_time, overruns, self._started_at)
         if isinstance(request, ReadBuses | ReadTraffic):
             return self._buses.respond(request)
-        if request.gripper not in self._loops:
+        if isinstance(request, UseModel):
+            loops = [self._loop(name) for name in request.grippers]
+            swap([loop.gripper for loop in loops], chain_of(request.model))
+            log.info("model", grippers=request.grippers, model=request.model.name)
+            return [loop.state() for loop in loops]
+        return await _respond(request, self._loop(request.gripper))
+
+    def _loop(self, name: str) -> Loop:
+        if name not in self._loops:
             known = ", ".join(self._loops)
-            message = f"there is no gripper {request.gripper!r}; there is {known}"
+            message = f"there is no gripper {name!r}; there is {known}"
             raise NotFound(message, key="gripper")
-        return await _respond(request, self._loops[request.gripper])
+        return self._loops[name]
 
 
 async def _respond(request: Request, loop: Loop) -> object:

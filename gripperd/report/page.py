@@ -8,7 +8,7 @@ from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.key import public
-from gripperd.diagnose.statement import statement, summary
+from gripperd.diagnose.statement import offered, reasons, statement, summary
 from gripperd.report import rows
 from gripperd.reproduce.extra import not_installed
 
@@ -29,16 +29,8 @@ TITLES = {
 def page(diagnosis: Diagnosis, *, model: str, program: str) -> str:
     """Write a diagnosis as HTML, with every picture and style inside.
 
-    The same arguments give the same page.
-
-    Parameters
-    ----------
-    diagnosis
-        What was found.
-    model
-        Name of the model it is about.
-    program
-        Version of the program.
+    The arguments are those of :func:`gripperd.diagnose.document.document`; the same
+    give the same page.
 
     Raises
     ------
@@ -71,7 +63,7 @@ def page(diagnosis: Diagnosis, *, model: str, program: str) -> str:
 
 
 def _pictures(diagnosis: Diagnosis) -> "Iterator[Picture]":
-    from gripperd.report import curves, where
+    from gripperd.report import correction, curves, where
     from gripperd.report.trace import traces
 
     if (plan := curves.plan(diagnosis.proposal)) is not None:
@@ -86,6 +78,7 @@ def _pictures(diagnosis: Diagnosis) -> "Iterator[Picture]":
             yield drawn
     yield where.over_time(found, column, floor)
     yield where.against_regressors(found, column, floor)
+    yield from map(correction.picture, diagnosis.corrections)
 
 
 def _told(diagnosis: Diagnosis) -> dict[str, object]:
@@ -101,8 +94,9 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
             {"name": public(entry.name), "text": statement(diagnosis, entry)}
             for entry in diagnosis.named
         ],
-        "gap": rows.gap_bars(diagnosis, main) if main else None,
-        "other_gaps": [rows.gap_bars(diagnosis, signal) for signal in others],
+        "gap": rows.gap_bars(diagnosis, diagnosis.gaps[main]) if main else None,
+        "other_gaps": [rows.gap_bars(diagnosis, diagnosis.gaps[one]) for one in others],
+        "extrapolation": _beyond(diagnosis),
         "held_out": diagnosis.held_out,
         "places": rows.places(diagnosis),
         "ranking": rows.ranking(diagnosis),
@@ -117,17 +111,26 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
         "next": proposal,
         "plan": _yaml(proposal.plan) if proposal and proposal.plan else "",
         "signature": diagnosis.signature,
-        "untested": _by_reason(diagnosis),
+        "corrections": [
+            {
+                "figure": f"correction_{offer.correction.signal.value}",
+                "sentence": offered(offer),
+                "table": rows.correction(offer),
+            }
+            for offer in diagnosis.corrections
+        ],
+        "untested": reasons(diagnosis),
         "seed": diagnosis.seed,
     }
 
 
+def _beyond(diagnosis: Diagnosis) -> dict[str, object] | None:
+    beyond = diagnosis.extrapolation
+    if beyond is None:
+        return None
+    bars = [rows.gap_bars(diagnosis, gap) for gap in beyond.gaps.values()]
+    return {"runs": beyond.runs, "gaps": bars}
+
+
 def _yaml(plan: object) -> str:
     return yaml.safe_dump(plan, sort_keys=False, default_flow_style=None, width=96)
-
-
-def _by_reason(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    reasons: dict[str, list[str]] = {}
-    for name, reason in diagnosis.untested.items():
-        reasons.setdefault(reason, []).append(public(name))
-    return reasons

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.correction import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import CONSTANTS, keys_of, public
 from gripperd.diagnose.statement import span
-from gripperd.model.effect import Signal
 from gripperd.model.parameter import parameters
 from gripperd.reproduce.chapters import Table
 
@@ -42,9 +43,9 @@ class Bars:
     """Place of the mark, of the whole width. [0..1]"""
 
 
-def gap_bars(diagnosis: Diagnosis, signal: Signal) -> Bars:
+def gap_bars(diagnosis: Diagnosis, gap: Gap) -> Bars:
     """Draw the gap on held-out runs: as it came, recalibrated, with what was found."""
-    gap, column = diagnosis.gaps[signal], BY_QUANTITY[signal.value]
+    column = BY_QUANTITY[gap.signal.value]
     sizes = {
         "as it came": gap.before,
         "better constants alone": gap.recalibrated,
@@ -63,7 +64,7 @@ def gap_bars(diagnosis: Diagnosis, signal: Signal) -> Bars:
         )
         for label, size in sizes.items()
     )
-    caption = f"{signal.value}: root mean square of measured minus predicted"
+    caption = f"{gap.signal.value}: root mean square of measured minus predicted"
     if diagnosis.named:
         low, high = (end / column.scale for end in gap.ci95_after)
         caption += f"; with what was found {low:.3g} to {high:.3g} {column.unit} (95 %)"
@@ -154,6 +155,21 @@ def constants(diagnosis: Diagnosis) -> Table:
         )
     columns = ("constant", "model", "tolerance", "fit", "± 1 sigma", "moved by", "unit")
     return Table("Constants of the model", columns, tuple(rows))
+
+
+def correction(offer: Offer) -> Table:
+    """What a correction depends on, over which way, and how far it reaches."""
+    found = offer.correction
+    table = []
+    for one, length, ends in zip(
+        found.regressors, found.lengths, found.ends.T, strict=True
+    ):
+        low, high = one.written(ends).tolist()
+        over = "does not matter" if length is None else f"{length / one.scale:.3g}"
+        reach = f"{low:.4g} to {high:.4g}"
+        table.append((one.quantity, over, reach, one.unit or "-"))
+    columns = ("quantity", "changes over", "fence", "unit")
+    return Table("What the correction depends on", columns, tuple(table))
 
 
 def places(diagnosis: Diagnosis) -> Table | None:

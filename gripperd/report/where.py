@@ -48,7 +48,7 @@ def residual_map(found: tuple[Trace, ...], column: Column) -> Picture | None:
     drawing = canvas(9.0, 4.3)
     panels = drawing.subplots(1, len(means), sharey=True, squeeze=False)[0]
     for axes, state in zip(panels, means, strict=True):
-        _paint(axes, edges, means[state], top)
+        paint(axes, edges, means[state], top)
         axes.set_title(state.value)
         axes.set(xlabel=_label(across), xlim=edges[0][[0, -1]], ylim=edges[1][[0, -1]])
     panels[0].set_ylabel(_label(up))
@@ -169,7 +169,8 @@ def _cells(x: Array, y: Array, residual: Array, edges: Sequence[Array]) -> Array
     return np.where(counts > 0, sums / np.maximum(counts, 1), np.nan)
 
 
-def _paint(axes: Axes, edges: Sequence[Array], means: Array, top: float) -> None:
+def paint(axes: Axes, edges: Sequence[Array], means: Array, top: float) -> None:
+    """Colour cells by sign and size; NaN stays empty."""
     corners, colours = [], []
     for i, (left, right) in enumerate(pairwise(edges[0])):
         for j, (low, high) in enumerate(pairwise(edges[1])):

@@ -1,5 +1,9 @@
 """The application: every resource, behind the guard, in front of control and bench."""
 
+from asyncio import to_thread
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from datetime import UTC, datetime
 from typing import Any
 
 from fastapi import FastAPI
@@ -9,17 +13,24 @@ from gripperd.link.client import Client
 from gripperd.service import bench as bench_resource
 from gripperd.service import (
     commands,
+    diagnoses,
     docs,
     grippers,
     health,
+    models,
     predictions,
     profiles,
     schema,
 )
+from gripperd.service import recordings as recordings_resource
 from gripperd.service.context import Context, shared_states
+from gripperd.service.diagnosing import Diagnosing
 from gripperd.service.failures import answer_failures
+from gripperd.service.fleet import Fleet
 from gripperd.service.guard import Guard
 from gripperd.service.library import ProfileLibrary
+from gripperd.store.diagnoses import Diagnoses
+from gripperd.store.recordings import Recordings
 
 VERSIONED = "/v1"
 DESCRIPTION = (
@@ -36,6 +47,18 @@ class Service(FastAPI):
         return schema.describe(self)
 
 
+@asynccontextmanager
+async def living(app: FastAPI) -> AsyncIterator[None]:
+    """Find what an earlier life left, and leave nothing running at the end."""
+    context: Context = app.state.context
+    await to_thread(context.recordings.sweep)
+    await context.diagnosing.open()
+    try:
+        yield
+    finally:
+        await context.diagnosing.close()
+
+
 def create_app(
     settings: Settings,
     control: Client,
@@ -44,12 +67,12 @@ def create_app(
     started_at: float,
     version: str,
 ) -> FastAPI:
-    """Put the application together.
+    """Put the application together; serve it while it is :func:`living`.
 
     Parameters
     ----------
     settings
-        What the daemon was told to do.
+        What the daemon was told to do, as it was loaded.
     control
         Answers :mod:`gripperd.link.control`; the caller closes it.
     bench
@@ -68,17 +91,36 @@ def create_app(
         redirect_slashes=False,
         generate_unique_id_function=lambda route: route.name,
     )
+    fleet = Fleet(settings)
+    recordings = Recordings(settings.state_dir / "recordings")
     app.state.context = Context(
         settings=settings,
+        fleet=fleet,
         control=control,
         bench=bench,
         library=ProfileLibrary(settings.profiles, settings.state_dir / "profiles"),
-        states=shared_states(settings, control),
+        states=shared_states(fleet, control),
         started_at=started_at,
         version=version,
+        recordings=recordings,
+        diagnosing=Diagnosing(
+            Diagnoses(settings.state_dir / "diagnoses"),
+            recordings,
+            lambda: datetime.now(UTC),
+        ),
     )
     # The first is matched first: states are what is read most.
-    for resource in (grippers, commands, health, profiles, predictions, bench_resource):
+    for resource in (
+        grippers,
+        commands,
+        health,
+        profiles,
+        predictions,
+        models,
+        recordings_resource,
+        diagnoses,
+        bench_resource,
+    ):
         app.include_router(resource.routes, prefix=VERSIONED, responses=schema.PROBLEM)
     app.include_router(docs.routes)
     app.add_middleware(Guard, host=settings.http.host)

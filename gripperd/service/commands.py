@@ -108,13 +108,14 @@ async def give_command(
     response: Response,
 ) -> CommandDocument:
     """Grasp or release; 200 instead of 201 when the key was used for it before."""
-    chain, order = daemon.gripper(gripper).chain, None
+    order = None
     params = asked.params or asked
     if isinstance(asked, GraspRequest) and isinstance(params, GraspParams):
+        chain = (await daemon.up_to_date(daemon.gripper(gripper))).chain
         with _within("params" if asked.params else ""):
             order = order_for(params.profile, params, chain, daemon.library)
         check(order, chain)
-    submit = Submit(gripper, order, params.deadline_s, key)
+    submit = Submit(daemon.gripper(gripper).name, order, params.deadline_s, key)
     accepted = await daemon.change(submit, Submitted)
     command = accepted.command
     if accepted.replayed:

@@ -1,6 +1,8 @@
 """What the resources need, and how they get it."""
 
-from dataclasses import dataclass
+from asyncio import Lock
+from contextlib import suppress
+from dataclasses import dataclass, field
 from typing import Annotated, TypeVar
 
 from fastapi import Depends, Request
@@ -9,12 +11,15 @@ from gripperd.config import GripperSettings, Settings
 from gripperd.config.complaint import did_you_mean
 from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Machine
-from gripperd.errors import InputError, NotFound, Refused
+from gripperd.errors import InputError, LinkError, NotFound, Refused
 from gripperd.link.client import Client
 from gripperd.link.control import Cancel, Disable, Enable, ReadState, Stop, Submit
+from gripperd.service.diagnosing import Diagnosing
+from gripperd.service.fleet import Fleet
 from gripperd.service.library import ProfileLibrary
 from gripperd.service.shared import Shared
 from gripperd.service.state import StateDocument, state_document
+from gripperd.store.recordings import Recordings
 
 T = TypeVar("T")
 
@@ -37,6 +42,8 @@ class Context:
     """The rest of the daemon, as the service sees it."""
 
     settings: Settings
+    """As they were loaded; the grippers as they are now are the fleet."""
+    fleet: Fleet
     control: Client
     bench: Client | None
     library: ProfileLibrary
@@ -44,6 +51,12 @@ class Context:
     started_at: float
     """Seconds since the epoch."""
     version: str
+    recordings: Recordings
+    diagnosing: Diagnosing
+    activating: Lock = field(default_factory=Lock)
+    """One change of versions at a time, so that files and control agree."""
+    reading: Lock = field(default_factory=Lock)
+    """One recording is read at a time: reading takes a process."""
 
     def gripper(self, name: str) -> GripperSettings:
         """Settings of the gripper that a path names.
@@ -53,11 +66,11 @@ class Context:
         NotFound
             With the names there are.
         """
-        grippers = self.settings.grippers
-        if name not in grippers:
-            message = f"there is no gripper {name!r}; {did_you_mean(name, grippers)}"
+        if name not in self.fleet:
+            hint = did_you_mean(name, self.fleet)
+            message = f"there is no gripper {name!r}; {hint}"
             raise NotFound(message, key="gripper")
-        return grippers[name]
+        return self.fleet[name]
 
     def chosen_gripper(self, name: str | None) -> GripperSettings:
         """Settings of the gripper that a body names; by default the first.
@@ -68,11 +81,21 @@ class Context:
             With the names there are.
         """
         if name is None:
-            return next(iter(self.settings.grippers.values()))
+            return next(iter(self.fleet.values()))
         try:
             return self.gripper(name)
         except NotFound as error:
             raise InputError(str(error), key="gripper") from error
+
+    async def up_to_date(self, gripper: GripperSettings) -> GripperSettings:
+        """The same with the model that control goes by now.
+
+        While control cannot be asked, the one it was last known to go by.
+        """
+        with suppress(LinkError):
+            # The fleet follows every state that is read.
+            await self.states.get(gripper.name)
+        return self.fleet[gripper.name]
 
     @property
     def simulated(self) -> Client:
@@ -115,12 +138,12 @@ class Context:
             raise Refused(message, code="link-down")
 
 
-def shared_states(settings: Settings, control: Client) -> Shared[Seen]:
+def shared_states(fleet: Fleet, control: Client) -> Shared[Seen]:
     """Make the one place that asks control for states."""
 
     async def ask(name: str) -> Seen:
         state = await control.ask(ReadState(name), GripperState, STATE_WITHIN)
-        document = state_document(state, settings.grippers[name])
+        document = state_document(state, await fleet.follow(name, state.model))
         return Seen(document, document.model_dump_json().encode())
 
     return Shared(ask, STATE_LASTS)

@@ -21,7 +21,7 @@ class Grippers(Document):
 @routes.get("/grippers")
 async def list_grippers(daemon: Daemon) -> Grippers:
     """State of every gripper."""
-    seen = [await daemon.states.get(name) for name in daemon.settings.grippers]
+    seen = [await daemon.states.get(name) for name in daemon.fleet]
     return Grippers(grippers=tuple(each.document for each in seen))
 
 

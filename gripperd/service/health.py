@@ -72,7 +72,7 @@ async def live() -> Health:
 @routes.get("/health/ready", response_model=Health)
 async def ready(request: Request, daemon: Daemon) -> Health | Response:
     """Control answers and every gripper has its link; else 503 with the reasons."""
-    found = [await _reason(daemon, name) for name in daemon.settings.grippers]
+    found = [await _reason(daemon, name) for name in daemon.fleet]
     reasons = [reason for reason in found if reason]
     if not reasons:
         return Health(status="ready")
@@ -100,7 +100,9 @@ async def info(daemon: Daemon) -> About:
         control = "up"
     except LinkError as error:
         overview, buses, control = None, [], str(error)
-    grippers = daemon.settings.grippers
+    grippers = {
+        name: await daemon.up_to_date(each) for name, each in daemon.fleet.items()
+    }
     return About(
         version=daemon.version,
         mode="hardware" if daemon.bench is None else "simulated",
@@ -118,7 +120,7 @@ async def info(daemon: Daemon) -> About:
 
 def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
     yield NO_SAFETY_FUNCTION
-    for name, gripper in daemon.settings.grippers.items():
+    for name, gripper in daemon.fleet.items():
         yield NO_WATCHDOG.format(name=name)
         if gripper.fail_mode is FailMode.VENT:
             yield FAILS_OPEN.format(name=name)

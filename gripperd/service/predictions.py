@@ -85,7 +85,7 @@ class Predictions(Document):
 @routes.post("/predictions")
 async def predict(daemon: Daemon, asked: PredictionRequest) -> Predictions:
     """Predict grip forces, or the currents that they take; nothing moves."""
-    gripper = daemon.chosen_gripper(asked.gripper)
+    gripper = await daemon.up_to_date(daemon.chosen_gripper(asked.gripper))
     check_current(asked.current_mA, gripper.chain)
     given = asked.diameter_mm
     found = []
@@ -127,7 +127,8 @@ def predicted(
             current = _current_for(asked.force_N, pressed, direction, chain)
         return chain.predict(current, pressed, direction)
     except InputError as error:
-        key = place if error.key == "diameter_mm" else error.key
+        keys = {"diameter_mm": place, "pressure_kPa": "force_N"}
+        key = error.key and keys.get(error.key, error.key)
         raise InputError(str(error), key=key) from error
 
 

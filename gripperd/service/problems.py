@@ -55,21 +55,39 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         "object-held": Kind(
             409, "An object is being held", Category.PRECONDITION, retryable=True
         ),
-        "already-final": Kind(409, "The command is over", Category.PRECONDITION),
+        "already-final": Kind(409, "It is over already", Category.PRECONDITION),
+        "not-finished": Kind(
+            409, "It is not over yet", Category.PRECONDITION, retryable=True
+        ),
+        "model-unusable": Kind(
+            409, "The version cannot be used", Category.PRECONDITION
+        ),
+        "model-changed": Kind(
+            409, "The model is not the one that was judged", Category.PRECONDITION
+        ),
+        "nothing-found": Kind(409, "It ended without a result", Category.PRECONDITION),
+        "not-named": Kind(409, "There is nothing to accept", Category.PRECONDITION),
+        "not-in-model": Kind(
+            409, "A model file has no place for it", Category.PRECONDITION
+        ),
+        "not-confirmed": Kind(
+            409, "Data left out do not confirm it", Category.PRECONDITION
+        ),
+        "already-accepted": Kind(409, "It was kept already", Category.PRECONDITION),
         "read-only": Kind(409, "The profile is an original", Category.PRECONDITION),
         "already-exists": Kind(409, "There is one already", Category.PRECONDITION),
         "changed-since": Kind(
             412, "It was changed since you read it", Category.PRECONDITION
         ),
         "body-too-large": Kind(413, "The body is too large"),
-        "unsupported-media-type": Kind(415, "The body must be JSON"),
+        "unsupported-media-type": Kind(415, "The body is of another type"),
         "misdirected": Kind(421, "Not a name of this service"),
         "invalid": Kind(422, "The request cannot be carried out as it is"),
         "infeasible": Kind(422, "The grasp would fail or do harm"),
         "idempotency-mismatch": Kind(422, "The key was used for another request"),
         "if-match-required": Kind(428, "Say which version you change"),
         "queue-full": Kind(
-            429, "Too many commands are waiting", Category.PRECONDITION, retryable=True
+            429, "Too many are waiting", Category.PRECONDITION, retryable=True
         ),
         "headers-too-large": Kind(431, "The headers are too large"),
         "internal": Kind(500, "A defect of gripperd", Category.INTERNAL),

@@ -155,7 +155,7 @@ async def evaluate_profile(
     """Say what a grasp would do, and whether it may; nothing moves."""
     daemon.library.get(profile)
     target = target or EvaluationRequest()
-    gripper = daemon.chosen_gripper(target.gripper)
+    gripper = await daemon.up_to_date(daemon.chosen_gripper(target.gripper))
     order = order_for(profile, target, gripper.chain, daemon.library)
     evaluation = evaluate(order, gripper.chain)
     return EvaluationDocument(

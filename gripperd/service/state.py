@@ -8,7 +8,7 @@ from gripperd.control.states import Event, Grip, Machine
 from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
 from gripperd.service.rendering import Document, known, optional, to
-from gripperd.signals import Measurement, Quality, Reading
+from gripperd.signals import Quality, Reading
 from gripperd.units import MILLI
 
 # ruff: noqa: N815  (names carry units, and units have capitals)
@@ -58,10 +58,10 @@ class StateDocument(Document):
     adopted: bool = Field(description="The current was found, not commanded.")
     measured: MeasuredValues
     prediction: PresentPrediction | None = Field(
-        description="Null unless current and opening are known."
+        description="Null unless current, opening and model are known."
     )
     fail_mode: FailMode = Field(description="What happens without power or air.")
-    model: str
+    model: str = Field(description="Name of the version that it goes by.")
 
 
 def state_document(state: GripperState, settings: GripperSettings) -> StateDocument:
@@ -83,9 +83,9 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
             opening_mm=_measured("opening", "mm", state),
             force_N=_measured("grip", "N", state),
         ),
-        prediction=_predicted(state.measured, settings.chain) if fresh else None,
+        prediction=_predicted(state, settings.chain) if fresh else None,
         fail_mode=settings.fail_mode,
-        model=settings.chain.name,
+        model=state.model,
     )
 
 
@@ -106,8 +106,9 @@ def _measured(channel: str, unit: str, state: GripperState) -> Measured:
     )
 
 
-def _predicted(measured: Measurement | None, chain: Chain) -> PresentPrediction | None:
-    if measured is None:
+def _predicted(state: GripperState, chain: Chain) -> PresentPrediction | None:
+    measured = state.measured
+    if measured is None or state.model != chain.name:
         return None
     current, opening = measured.current.value, measured.opening.value
     if current is None or opening is None:

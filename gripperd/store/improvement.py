@@ -17,6 +17,7 @@ from gripperd.config.lineage import Gap
 from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.extrapolation import apart
 from gripperd.diagnose.gap import Gap as Judged
 from gripperd.diagnose.gap import gaps
 from gripperd.diagnose.key import (
@@ -131,7 +132,7 @@ def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:
     split, signal = diagnosis.split, diagnosis.main
     points = (diagnosis.nominal, diagnosis.recalibrated, point)
     draws = np.random.default_rng(diagnosis.seed)
-    judged = gaps(split.test, points, split.train.noises, draws)
+    judged = gaps(apart(split)[0], points, split.train.noises, draws)
     if signal is None or signal not in judged:
         message = "nothing to apply: no data were left out to confirm it on"
         raise Refused(message, code="not-confirmed")

@@ -170,6 +170,18 @@ class Versions:
         """
         return self._point(Pointer.back)
 
+    def before(self) -> Version:
+        """Version that :meth:`rollback` would go back to.
+
+        Raises
+        ------
+        Refused
+            There was none before.
+        ConfigError
+            Its file, or the one that says which is active, is damaged.
+        """
+        return self.get(self._read_pointer().back().active)
+
     def _point(self, move: Callable[[Pointer], Pointer]) -> Version:
         with self._changing():
             pointer = move(self._read_pointer())

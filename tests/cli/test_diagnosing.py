@@ -150,6 +150,36 @@ def reversed_rows(text: str) -> str:
     return "\n".join([header, *reversed(rows)])
 
 
+def scaled(factor: float, every: int = 1) -> Callable[[str], str]:
+    """Let the force of every so many runs be read in another unit."""
+
+    def other(text: str) -> str:
+        header, *lines = text.splitlines()
+        rows = [line.split(",") for line in lines]
+        place = header.split(",").index("force_N")
+        names = list(dict.fromkeys(row[0] for row in rows))
+        for row in rows:
+            if names.index(row[0]) % every == 0:
+                row[place] = f"{factor * float(row[place]):.6g}"
+        return "\n".join([header, *map(",".join, rows)])
+
+    return other
+
+
+def dropped(text: str) -> str:
+    """Let the current drop out to 0 mA in every tenth row."""
+    header, *lines = text.splitlines()
+    rows = [line.split(",") for line in lines]
+    place = header.split(",").index("current_mA")
+    for row in rows[::10]:
+        row[place] = "0"
+    return "\n".join([header, *map(",".join, rows)])
+
+
+LBF = 0.2248
+"""Pounds of force in a newton."""
+
+
 @pytest.mark.parametrize(
     ("spoilt", "complaint"),
     [
@@ -160,6 +190,8 @@ def reversed_rows(text: str) -> str:
         (filled, "links no two points of the chain"),
         (reversed_rows, "t_s runs backwards"),
         (lambda _text: "", "is empty"),
+        (scaled(LBF), "is it in lbf"),
+        (lambda text: text.replace("force_N", "force_lbf"), "expected in N"),
     ],
     ids=[
         "no pressure",
@@ -169,6 +201,8 @@ def reversed_rows(text: str) -> str:
         "nan",
         "backwards",
         "empty",
+        "lbf for N",
+        "lbf by name",
     ],
 )
 def test_an_unusable_recording_is_one_clear_message(
@@ -176,7 +210,56 @@ def test_an_unusable_recording_is_one_clear_message(
 ) -> None:
     path = done.folder / "spoilt.csv"
     path.write_text(spoilt((done.folder / "rig.csv").read_text()))
-    refused(str(path), done.at("model.yaml"), str(path), complaint)
+    refused(str(path), done.at("model.yaml"), path.stem, complaint)
+
+
+@pytest.mark.parametrize("factor", [LBF, 2.5], ids=["lbf in half", "two muscles"])
+def test_a_recording_that_contradicts_itself_is_a_verdict(
+    done: Done, factor: float
+) -> None:
+    path = done.folder / "torn.csv"
+    path.write_text(scaled(factor, 2)((done.folder / "rig.csv").read_text()))
+    ended = gripperd(
+        "diagnose", str(path), "--model", done.at("model.yaml"),
+        "--json", done.at("torn.json"), "--report", done.at("torn.html"),
+    )  # fmt: skip
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stdout.startswith("unusable  The recording contradicts itself")
+    said = json.loads((done.folder / "torn.json").read_text())
+    assert said["verdict"] == "unusable"
+    assert (said["effects"], said["where"], said["gap"]) == ([], [], None)
+    (one,) = said["contradictions"]
+    assert {"isometric_0", "isometric_2"} <= {*one["runs"]}
+    assert "isometric_1" in one["others"]
+    page = (done.folder / "torn.html").read_text(encoding="utf-8")
+    assert "The recording contradicts itself" in page
+    assert "Which, and how sure" not in page
+
+
+def test_a_recording_that_contradicts_itself_adds_nothing_to_a_model(
+    done: Done,
+) -> None:
+    path = done.folder / "torn.csv"
+    path.write_text(scaled(0.4, 2)((done.folder / "rig.csv").read_text()))
+    ended = gripperd(
+        "diagnose", str(path), "--model", done.at("model.yaml"), "--apply",
+        "--config", str(done.settings),
+    )  # fmt: skip
+    assert ended.returncode == 1
+    assert "nothing to apply, the verdict is unusable" in ended.stderr
+
+
+def test_dropouts_to_0_mA_are_left_out_and_told(done: Done) -> None:  # noqa: N802
+    path = done.folder / "dropped.csv"
+    path.write_text(dropped(Path(short(done)).read_text()))
+    ended = gripperd(
+        "diagnose", str(path), "--model", done.at("model.yaml"), "--json", "-"
+    )
+    assert ended.returncode == 0, ended.stderr
+    said = json.loads(ended.stdout)
+    assert said["verdict"] == "none"
+    assert sum(one["count"] for one in said["rejected_samples"]) == 5
+    assert {one["reason"] for one in said["rejected_samples"]} == {"under 3.6 mA"}
 
 
 def test_what_is_no_recording_is_one_clear_message(done: Done) -> None:

@@ -1,10 +1,13 @@
 """Versions of the model, from the command line and in a running daemon."""
 
 import json
+import os
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -14,11 +17,13 @@ from gripperd.config.lineage import Added, Gap, Recorded
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.model import StaticMuscle
 from gripperd.store import Version, versions_of
-from tests.daemon import gripperd, running_daemon, settings_file
+from tests.daemon import children, gripperd, running_daemon, settings_file, until
 
 PREDICT = ("predict", "--current", "10.7", "--diameter", "65", "--json")
 FRICTION = 20.0
 """Of the version under test: at a ratio of 4 it takes 5 N from each jaw. [N]"""
+
+NEXT_START = "no daemon runs; one goes by it from its next start"
 
 Run = Callable[..., str]
 
@@ -118,11 +123,15 @@ def test_versions_are_compared(run: Run) -> None:
 
 def test_predictions_follow_the_active_version_and_back(run: Run) -> None:
     before = json.loads(run(*PREDICT))
-    assert run("model", "activate", "1") == "reference-1 is active\n"
+    assert run("model", "activate", "1") == f"reference-1 is active\n{NEXT_START}\n"
     after = json.loads(run(*PREDICT))
     assert (before["model"], after["model"]) == ("reference", "reference-1")
     assert before["force_N"] - after["force_N"] == pytest.approx(FRICTION / 4, abs=2e-3)
-    assert json.loads(run("model", "rollback", "--json"))["active"] == 0
+    assert json.loads(run("model", "rollback", "--json")) == {
+        "active": 0,
+        "name": "reference",
+        "taken_up": False,
+    }
     assert json.loads(run(*PREDICT)) == before
 
 
@@ -155,10 +164,10 @@ def test_a_damaged_active_version_stops_the_start_and_can_be_left(
     assert said.returncode == 78
     assert f"{file}: is not as it was written" in said.stderr
     assert "'gripperd model rollback' goes back to the one before" in said.stderr
-    assert run("model", "rollback") == "reference is active\n"
+    assert run("model", "rollback") == f"reference is active\n{NEXT_START}\n"
 
 
-def test_the_daemon_starts_with_the_active_version_and_keeps_it_while_it_holds(
+def test_the_daemon_takes_up_a_version_at_once_and_keeps_it_while_it_holds(
     tmp_path: Path,
 ) -> None:
     add_version(settings_file(tmp_path))
@@ -170,7 +179,11 @@ def test_the_daemon_starts_with_the_active_version_and_keeps_it_while_it_holds(
         found = httpx.post(f"{url}/v1/predictions", json=asked).json()
         assert found["model"] == "reference-1"
         told = gripperd("model", "activate", "0", *config)
-        assert "takes it up when it is started again" in told.stdout
+        assert "the daemon that runs goes by it from now on" in told.stdout
+        found = httpx.post(f"{url}/v1/predictions", json=asked).json()
+        assert found["model"] == "reference"
+        assert httpx.get(f"{url}/v1/grippers/g0").json()["model"] == "reference"
+        assert httpx.get(f"{url}/v1/info").json()["models"] == {"g0": "reference"}
         httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"})
         held = gripperd("grasp", "apple", "--current", "10.7", GRIPPERD_URL=url)
         # The rig is the configured one: what the version adds is in the model alone.
@@ -181,4 +194,20 @@ def test_the_daemon_starts_with_the_active_version_and_keeps_it_while_it_holds(
             assert "g0 is ready, holding: its model stays as it is" in refused.stderr
             assert "release first" in refused.stderr
         gripperd("release", GRIPPERD_URL=url)
-        assert gripperd("model", "activate", "1", *config).returncode == 0
+        back = gripperd("model", "rollback", "--json", *config)
+        assert json.loads(back.stdout) == {
+            "active": 1,
+            "name": "reference-1",
+            "taken_up": True,
+        }
+        # Control that is started anew reads what was kept.
+        control = children(daemon.process)["control"]
+        os.kill(control, signal.SIGKILL)
+        until(lambda: children(daemon.process).get("control", control) != control)
+        until(lambda: _state(url).get("machine") == "ready")
+        assert _state(url)["model"] == "reference-1"
+
+
+def _state(url: str) -> dict[str, Any]:
+    found: dict[str, Any] = httpx.get(f"{url}/v1/grippers/g0").json()
+    return found

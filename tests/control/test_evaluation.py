@@ -5,6 +5,8 @@ import pytest
 
 from gripperd.control.evaluation import check, evaluate
 from gripperd.control.profile import Mode, Profile
+from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.effects.valve_gain import ValveGain
 from gripperd.errors import Refused
 from gripperd.model import Chain
 
@@ -116,3 +118,28 @@ def test_the_ends_of_the_valve_are_feasible(chain: Chain, profiles: Profiles) ->
     # At 4 mA there is no pressure, so no force either: only that is refused.
     (reason,) = evaluate(ordered(sturdy, Mode.CURRENT, 0.004), chain).reasons
     assert reason.startswith("0.00 N per jaw is under")
+
+
+def test_what_the_supply_cannot_give_is_refused_with_what_it_gives(
+    chain: Chain, profiles: Profiles
+) -> None:
+    spent = replace(chain, effects=(SupplySaturation(share=1.0, limit=0.3),))
+    evaluation = evaluate(ordered(profiles["raw_egg"], Mode.FORCE), spent)
+    assert not evaluation.feasible
+    assert evaluation.current == 0.020
+    assert evaluation.prediction.pressure == pytest.approx(150e3)
+    (reason,) = evaluation.reasons
+    assert reason.startswith("12.00 N per jaw cannot be had: the valve does not reach")
+    assert "with supply_saturation" in reason
+    with pytest.raises(Refused, match="cannot be had") as refused:
+        check(ordered(profiles["raw_egg"], Mode.FORCE), spent)
+    assert refused.value.code == "infeasible"
+
+
+def test_the_top_of_the_valve_is_told_as_the_model_has_it(
+    chain: Chain, profiles: Profiles
+) -> None:
+    steep = replace(chain, effects=(ValveGain(error=0.1),))
+    steel = replace(profiles["apple"], damage_force=1e6)
+    with pytest.raises(Refused, match=r"\(up to 550 kPa\)"):
+        check(ordered(steel, Mode.FORCE, 500.0), steep)

@@ -4,12 +4,15 @@ from dataclasses import replace
 import pytest
 
 from gripperd.bench.faults import HEALTHY, BenchFaults
+from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Channel
 from gripperd.control.command import Outcome
 from gripperd.control.profile import Mode, Profile
+from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.model import Chain
 from gripperd.signals import Quality
 
-from .stage import Stage, grasped
+from .stage import Stage, grasped, ordered
 
 Profiles = Mapping[str, Profile]
 BLIND = frozenset(Channel)
@@ -140,3 +143,29 @@ def test_soft_and_tough_things_are_held_too(stage: Stage, profiles: Profiles) ->
         profiles["apple"], diameter=0.060, stiffness=2e3, damage_force=1000.0
     )
     assert grasped(stage, foam, Mode.FORCE).outcome is Outcome.HELD
+
+
+def test_a_model_that_knows_the_air_is_short_ends_the_grasp_with_an_outcome(
+    chain: Chain, rig: Rig, profiles: Profiles
+) -> None:
+    # 12 N take 190.1 kPa on an egg of 41 mm, 194.3 kPa on one of 38.5 mm.
+    limit = 191.5 / 500
+    knows = replace(chain, effects=(SupplySaturation(share=1.0, limit=limit),))
+    stage = Stage(knows, rig, {"pressure": 600e3, "opening": 0.1, "grip": 100.0})
+    short = BenchFaults(supply_pressure=191.5e3)
+    result = grasped(stage, profiles["raw_egg"], Mode.FORCE, short, diameter=0.0385)
+    assert result.outcome is Outcome.FORCE_NOT_REACHED
+    assert result.force == pytest.approx(10.4, abs=0.5)
+
+
+def test_closed_jaws_are_told_by_the_pressure_that_the_model_s_valve_gives(
+    chain: Chain, rig: Rig, profiles: Profiles
+) -> None:
+    # 10.7 mA are 209 kPa on the line; this supply ends at 150 kPa, and it is known.
+    knows = replace(chain, effects=(SupplySaturation(share=1.0, limit=0.3),))
+    stage = Stage(knows, rig, {"pressure": 600e3, "opening": 0.1, "grip": 100.0})
+    rig.plant.faults = BenchFaults(
+        supply_pressure=150e3, broken=frozenset({Channel.OPENING})
+    )
+    result = stage.grasp(ordered(profiles["raw_egg"], Mode.CURRENT))
+    assert result.outcome is Outcome.NO_OBJECT

@@ -6,6 +6,8 @@ import pytest
 
 from gripperd.control.plan import Plan
 from gripperd.control.profile import Mode, Profile
+from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model import Chain, Direction, PressedObject
 
 from .stage import ordered
@@ -81,3 +83,53 @@ def test_a_reduction_goes_through_the_friction(plan: Plan, chain: Chain) -> None
     opening = 0.041 - 35.0 / 1.3 / 1e5
     left = chain.grip_force(reduced, opening, Direction.EXTENDING)
     assert left == pytest.approx(35.0 / 1.3)
+
+
+def spent(chain: Chain, limit: float) -> Chain:
+    """The same with a supply that ends at a share of the regulator's 500 kPa."""
+    return replace(chain, effects=(SupplySaturation(share=1.0, limit=limit),))
+
+
+def test_the_line_of_the_model_is_aimed_with(chain: Chain, profiles: Profiles) -> None:
+    # At 20 kPa beyond the line 0.64 mA less do: 16 mA on 500 kPa.
+    plan = Plan(ordered(profiles["raw_egg"], Mode.FORCE), chain)
+    high = replace(chain, effects=(ValveOffset(offset=20e3),))
+    moved = Plan(ordered(profiles["raw_egg"], Mode.FORCE), high)
+    for name in ("goal", "near", "safest", "closing_limit"):
+        expected = getattr(plan, name) - 0.64e-3
+        assert getattr(moved, name) == pytest.approx(expected), name
+
+
+def test_free_jaws_are_not_driven_out_of_the_valve_s_span(
+    chain: Chain, profiles: Profiles
+) -> None:
+    high = replace(chain, effects=(ValveOffset(offset=100e3),))
+    melon = replace(profiles["apple"], diameter=0.085)
+    assert Plan(ordered(melon, Mode.FORCE), high).near == 0.004
+
+
+def test_what_no_current_gives_is_aimed_at_with_all_there_is(
+    chain: Chain, profiles: Profiles
+) -> None:
+    # 12 N on 41 mm take 190 kPa; the supply gives 150 kPa.
+    plan = Plan(ordered(profiles["raw_egg"], Mode.FORCE), spent(chain, 0.3))
+    assert plan.goal == plan.safest == plan.closing_limit == 0.020
+
+
+def test_jaws_that_never_get_near_are_not_hurried(
+    chain: Chain, profiles: Profiles
+) -> None:
+    # Free jaws stand at 47 mm at 158 kPa; the supply gives 100 kPa.
+    plan = Plan(ordered(profiles["raw_egg"], Mode.FORCE), spent(chain, 0.2))
+    assert plan.near == 0.004
+
+
+def test_a_force_beyond_the_model_s_valve_is_reduced_all_the_same(
+    plan: Plan, chain: Chain, profiles: Profiles
+) -> None:
+    # Felt although the model's supply cannot give it: the line must do.
+    doubted = Plan(ordered(profiles["raw_egg"], Mode.FORCE), spent(chain, 0.3))
+    assert doubted.reduction(30.0) == pytest.approx(plan.reduction(30.0))
+    assert doubted.current_per_newton(30.0) == pytest.approx(
+        plan.current_per_newton(30.0)
+    )

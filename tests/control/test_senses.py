@@ -1,6 +1,9 @@
+from dataclasses import replace
+
 import pytest
 
 from gripperd.control.senses import Senses, grip_force
+from gripperd.effects.linkage_friction import LinkageFriction
 from gripperd.model import Chain, PressedObject
 from gripperd.signals import Measurement, Quality, Reading
 
@@ -109,3 +112,10 @@ def test_a_gap_of_two_samples_is_bridged_and_a_third_is_told(chain: Chain) -> No
 
 def test_what_was_never_measured_is_not_made_up(chain: Chain) -> None:
     assert forces(Senses(chain), BROKEN, BROKEN) == [None, None]
+
+
+def test_a_broken_sensor_is_replaced_with_what_the_joints_leave(chain: Chain) -> None:
+    rubs = replace(chain, effects=(LinkageFriction(loss=0.1),))
+    reading = grip_force(measured(BROKEN, 209_375.0, 0.065), rubs)
+    # While closing the joints take a tenth of the 47.6 N.
+    assert reading.value == pytest.approx(0.9 * 47.6, abs=0.05)

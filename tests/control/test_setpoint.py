@@ -1,11 +1,15 @@
+from dataclasses import replace
 from math import isclose
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gripperd.control.setpoint import LONGEST_STEP, Ramp, within
+from gripperd.control.setpoint import LONGEST_STEP, Ramp, reached, within
+from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model import Chain
+from gripperd.signals import Measurement, Reading
 
 currents = st.floats(0.0, 0.02)
 
@@ -70,3 +74,24 @@ def test_the_valve_follows_only_its_span(
     chain: Chain, asked: float, given_: float
 ) -> None:
     assert within(chain.regulator, asked) == given_
+
+
+def at(pressure: float | None) -> Measurement:
+    found = Reading.bad("broken") if pressure is None else Reading(pressure)
+    return Measurement(time=0.0, current=Reading(0.0107), pressure=found)
+
+
+def test_a_pressure_belongs_to_the_current_that_the_valve_of_the_model_takes(
+    chain: Chain,
+) -> None:
+    high = replace(chain, effects=(ValveOffset(offset=20e3),))
+    # 10.7 mA are 209.375 kPa on the line, and 20 kPa more by this model.
+    assert reached(at(209_375.0), chain) == pytest.approx(0.0107)
+    assert reached(at(229_375.0), high) == pytest.approx(0.0107)
+
+
+def test_a_pressure_that_the_valve_cannot_give_tells_no_current(chain: Chain) -> None:
+    spent = replace(chain, effects=(SupplySaturation(share=1.0, limit=0.3),))
+    assert reached(at(149e3), spent) == pytest.approx(0.004 + 0.016 * 149 / 500)
+    assert reached(at(151e3), spent) is None
+    assert reached(at(None), chain) is None

@@ -15,10 +15,12 @@ from gripperd.effects import EFFECTS
 from gripperd.errors import InputError
 from gripperd.model import Linkage
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from tests.diagnose.conftest import FEW
 from tests.diagnose.small import (
     LINKAGE,
     MODEL,
+    Moment,
     altered,
     pinned,
     recording,
@@ -152,6 +154,60 @@ def test_nor_in_the_noise_it_is_weighed_by() -> None:
         assert found.drift == noise.drift
     shifts = told.recalibrated.shifts
     assert spoilt.recalibrated.shifts == pytest.approx(shifts, abs=1e-4)
+
+
+def _bump(moment: Moment) -> Array:
+    """Nothing that a library holds: 60 N at one length and pressure."""
+    length = (moment.contraction - 0.1) / 0.05
+    pressure = (moment.pressure - 250e3) / 100e3
+    return np.asarray(60.0 * np.exp(-(length**2) - pressure**2))
+
+
+def test_what_nothing_explains_gets_a_correction_and_the_model_nothing() -> None:
+    told = diagnose(recording(_bump), MODEL, {}, {})
+    assert told.verdict is Verdict.UNEXPLAINED
+    (offer,) = told.corrections
+    assert offer.correction.signal is Signal.FORCE
+    gap = told.gaps[Signal.FORCE]
+    assert offer.worth.without == pytest.approx(gap.recalibrated)
+    assert gap.after == gap.recalibrated
+    assert gap.ci95_after[0] < gap.after < gap.ci95_after[1]
+
+
+def test_what_is_named_needs_no_correction(told: Diagnosis) -> None:
+    assert told.corrections == ()
+
+
+def test_a_recording_in_two_units_gets_no_verdict() -> None:
+    torn = altered(recording(), ("a", "c", "e", "b2"), "force", lambda f: 0.2248 * f)
+    told = diagnose(torn, MODEL, {}, EFFECTS)
+    assert told.verdict is Verdict.UNUSABLE
+    (found,) = told.recording.contradictions
+    assert {*found.runs, *found.others} <= {run.name for run in torn.runs}
+    assert (told.named, told.where, told.gaps, told.main) == ((), (), {}, None)
+    assert (told.proposal, told.signature, told.corrections) == (None, (), ())
+
+
+def test_sweeps_beyond_the_search_are_judged_apart() -> None:
+    # With four sweeps the last quarter of each is held out: d goes on beyond the rest.
+    plain = without(recording(order=("vented", "a", "b", "d")), "current")
+    up = replace(
+        plain,
+        runs=tuple(
+            replace(
+                run,
+                columns={k: v[: len(run) // 2] for k, v in run.columns.items()},
+            )
+            if run.name == "d"
+            else run
+            for run in plain.runs
+        ),
+    )
+    told = diagnose(up, MODEL, {}, {})
+    assert told.extrapolation is not None
+    assert "d (last quarter)" in told.extrapolation.runs
+    assert not {*told.extrapolation.runs} & {*told.held_out}
+    assert Signal.FORCE in told.extrapolation.gaps
 
 
 def test_its_progress_rises() -> None:

@@ -9,10 +9,13 @@ from gripperd.demo.rig import THRESHOLD, Hidden
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import document
+from gripperd.diagnose.extrapolation import Extrapolation
 from gripperd.diagnose.named import Estimate
 from gripperd.diagnose.next_experiment import Proposal
 from gripperd.diagnose.recording import Contradiction, Kind, Rejection
+from gripperd.model.effect import Signal
 from tests.demonstration import example
+from tests.diagnose.offered import bump
 
 
 @pytest.fixture(scope="module")
@@ -49,9 +52,51 @@ def test_it_has_every_key_of_the_contract(creep: Diagnosis) -> None:
     }  # fmt: skip
     assert said["gap"].keys() == {
         "signal", "unit", "rmse_before", "rmse_recalibrated", "rmse_after",
-        "noise_floor", "ci95_after", "heldout_runs",
+        "noise_floor", "ci95_after", "heldout_runs", "extrapolation",
     }  # fmt: skip
-    assert said["unexplained"].keys() == {"signature", "correction"}
+    assert said["gap"]["extrapolation"] is None
+    assert said["unexplained"] == {
+        "signature": [], "correction": "none", "corrections": [],
+    }  # fmt: skip
+
+
+def test_what_lies_beyond_the_search_has_a_gap_of_its_own(creep: Diagnosis) -> None:
+    gap = replace(creep.gaps[Signal.FORCE], before=40.0, recalibrated=30.0, after=20.0)
+    beyond = Extrapolation(("fast",), {Signal.FORCE: gap})
+    said = written(replace(creep, extrapolation=beyond))
+    apart = said["gaps"]["force_N"]["extrapolation"]
+    assert apart["heldout_runs"] == ["fast"]
+    sizes = (apart[f"rmse_{one}"] for one in ("before", "recalibrated", "after"))
+    assert tuple(sizes) == (40.0, 30.0, 20.0)
+    assert said["gaps"]["force_N"]["rmse_after"] != 20.0
+    assert said["gaps"]["pressure_kPa"]["extrapolation"] is None
+
+
+def test_a_correction_is_described_in_the_units_of_its_keys(creep: Diagnosis) -> None:
+    unexplained = replace(creep, verdict=Verdict.UNEXPLAINED, corrections=(bump(),))
+    told = written(unexplained)["unexplained"]
+    assert told["correction"] == "gp"
+    (one,) = told["corrections"]
+    assert (one["signal"], one["unit"], one["amplitude"]) == ("force_N", "N", 40.0)
+    assert one["lengthscales"] == {"pressure_kPa": 50.0, "contraction": None}
+    assert one["fence"]["ranges"] == {
+        "pressure_kPa": [0.0, 400.0], "contraction": [0.0, 0.2],
+    }  # fmt: skip
+    assert one["heldout"]["rmse_without"] == 20.0
+    assert one["heldout"]["rmse_with"] == 5.0
+
+
+def test_a_correction_s_table_follows_it_and_ends_at_the_fence(
+    creep: Diagnosis,
+) -> None:
+    told = written(replace(creep, corrections=(bump(),)))["unexplained"]
+    (table,) = told["corrections"][0]["tables"]
+    assert table["held"] == {}
+    values = dict(zip(table["pressure_kPa"], table["values"], strict=True))
+    assert values[200.0] == pytest.approx(30.0, abs=0.1)
+    assert values[0.0] is None
+    # Two places to a length of 50 kPa.
+    assert table["pressure_kPa"][1] == 25.0
 
 
 def test_what_is_hidden_is_named_with_the_keys_of_a_model_file(

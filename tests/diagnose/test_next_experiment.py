@@ -87,8 +87,8 @@ def test_dry_friction_and_memory_are_told_apart_by_minor_loops(
 
 
 def test_it_says_what_it_separates(held: Proposal, looped: Proposal) -> None:
-    assert held.why == "separates creep from force_sensor_drift"
-    assert looped.why == "separates coulomb_friction from presliding_hysteresis"
+    assert held.why == "separates creep from force sensor drift"
+    assert looped.why == "separates coulomb friction from presliding hysteresis"
 
 
 def test_what_it_promises_is_beyond_chance(held: Proposal, looped: Proposal) -> None:

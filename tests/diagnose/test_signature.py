@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import pytest
 
+from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.conclude import Conclusion, Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.problem import Problem
@@ -71,4 +72,33 @@ def test_the_share_that_is_explained_comes_first(
 def test_the_nearest_known_effects_are_named(told: Diagnosis, blank: Problem) -> None:
     best = replace(told.contest, rivals=((),))
     words = _words(blank, best, _view("time", 1e-30))
-    assert "nearest known effects: threshold_pressure" in words
+    assert "nearest known effects: threshold pressure" in words
+
+
+def test_a_wrong_constant_comes_without_its_path(
+    told: Diagnosis, blank: Problem
+) -> None:
+    wrong = replace(
+        told.contest.best, candidates=(Candidate("parameter:muscle.diameter", None, 0),)
+    )
+    words = _words(blank, Contest(wrong, (), ()), _view("time", 1e-30))
+    assert "nearest known effects: a wrong diameter" in words
+
+
+@pytest.mark.parametrize(
+    ("along", "signal", "said"),
+    [
+        ("cells", Signal.FORCE, "pressure and contraction together"),
+        ("cells", Signal.PRESSURE, "current and contraction together"),
+        (
+            "pressure x direction",
+            Signal.FORCE,
+            "pressure times the direction of travel",
+        ),
+    ],
+)
+def test_ways_of_looking_have_plain_words(
+    blank: Problem, unnamed: Contest, along: str, signal: Signal, said: str
+) -> None:
+    words = _words(blank, unnamed, _view(along, 1e-30, signal))
+    assert f"{signal.value}: depends on {said}" in words

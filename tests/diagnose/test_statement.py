@@ -5,11 +5,13 @@ import pytest
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.statement import span, statement, summary
+from gripperd.diagnose.recording import Contradiction
+from gripperd.diagnose.statement import offered, reasons, span, statement, summary
 from gripperd.diagnose.where import Finding
 from gripperd.effects.creep import Creep
 from gripperd.model.effect import Signal
 from tests.demonstration import example
+from tests.diagnose.offered import bump
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +41,36 @@ def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:
         "The model lacks creep; on data it never saw the force is off by 2.62 N"
         " instead of 29.6 N, and repeats by 3.04 N."
     )
+
+
+def test_a_contradiction_says_what_contradicts_what(creep: Diagnosis) -> None:
+    names = tuple("abcdef")
+    found = Contradiction(names, ("x",), "force_N", -310.4, "N", 3.21)
+    recording = replace(creep.recording, contradictions=(found,))
+    said = summary(
+        replace(creep, verdict=Verdict.UNUSABLE, named=(), recording=recording)
+    )
+    assert said == (
+        "The recording contradicts itself, no verdict can rest on it: force_N of a, b,"
+        " c, d and 2 more differs from that of x by 310 N at the same place, and"
+        " repeats by 3.2 N."
+    )
+
+
+def test_a_correction_is_called_no_physics() -> None:
+    assert offered(bump()) == (
+        "A smooth correction of the force by pressure leaves 5 N of 20 N on data it"
+        " never saw, of which 75% lie inside its fence; it is no physics, and no part"
+        " of the model"
+    )
+
+
+def test_effects_not_tested_are_listed_by_the_reason(creep: Diagnosis) -> None:
+    told = replace(
+        creep,
+        untested={"leak": "too short", "parameter:valve.pressure_low": "too short"},
+    )
+    assert reasons(told) == {"too short": ["leak", "parameter:valve.pressure_low_kPa"]}
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,9 @@ from gripperd.link.control import (
     Stop,
     Submit,
     Submitted,
+    UseModel,
 )
+from gripperd.link.model import model_message
 from gripperd.link.server import serve
 from gripperd.model import Chain
 
@@ -176,3 +178,35 @@ async def test_a_request_nobody_knows_is_told(client: Client) -> None:
 
     with pytest.raises(BadReply, match="Explode"):
         await client.ask(Explode("g0"), GripperState)
+
+
+async def test_another_model_is_taken_up_by_a_message(
+    client: Client, chain: Chain, rig: Rig
+) -> None:
+    before = rig.plant.current
+    request = UseModel(("g0",), model_message(replace(chain, name="reference-1")))
+    (taken,) = await client.ask(request, list[GripperState])
+    assert taken.model == "reference-1"
+    assert (await state(client)).model == "reference-1"
+    assert rig.plant.current == before
+
+
+async def test_no_other_model_while_a_command_runs(
+    client: Client, chain: Chain, order: GraspOrder
+) -> None:
+    await client.ask(Enable("g0"), GripperState)
+    await client.ask(Submit("g0", order, SOON), Submitted)
+    request = UseModel(("g0",), model_message(replace(chain, name="reference-1")))
+    with pytest.raises(Refused, match="until it is at rest") as refused:
+        await client.ask(request, list[GripperState])
+    assert refused.value.code == "wrong-state"
+    assert (await state(client)).model == "reference"
+
+
+async def test_grippers_that_are_not_there_take_up_nothing(
+    client: Client, chain: Chain
+) -> None:
+    request = UseModel(("g0", "g7"), model_message(replace(chain, name="reference-1")))
+    with pytest.raises(NotFound, match="no gripper 'g7'"):
+        await client.ask(request, list[GripperState])
+    assert (await state(client)).model == "reference"

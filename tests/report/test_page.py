@@ -7,6 +7,7 @@ import pytest
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.extrapolation import Extrapolation
 from gripperd.diagnose.next_experiment import Proposal
 from gripperd.diagnose.recording import Contradiction, Kind, Rejection
 from gripperd.diagnose.statement import summary
@@ -14,6 +15,7 @@ from gripperd.errors import InputError
 from gripperd.report import page
 from gripperd.reproduce.extra import not_installed
 from tests.demonstration import example
+from tests.diagnose.offered import around, bump
 
 VOID = {"meta", "link", "br", "img", "wbr", "hr", "input"}
 
@@ -135,6 +137,50 @@ def test_what_was_left_out_is_told_and_cannot_break_the_page(creep: Diagnosis) -
     text = written(replace(creep, recording=recording))
     assert "7 of force_N in &lt;b&gt;run, frozen" in text
     assert "12.5 N" in text
+
+
+def test_a_correction_has_a_picture_and_is_called_no_physics(creep: Diagnosis) -> None:
+    text = written(
+        replace(creep, verdict=Verdict.UNEXPLAINED, corrections=(bump(), around()))
+    )
+    checked = Checked()
+    checked.feed(text)
+    assert checked.open == []
+    assert '<figure id="correction_force">' in text
+    assert '<figure id="correction_grip">' in text
+    assert "A correction that is no physics" in text
+    assert "<td>does not matter</td><td>0 to 0.2</td>" in text
+
+
+def test_without_a_correction_none_is_mentioned(text: str) -> None:
+    assert "no physics" not in text
+
+
+def test_extrapolation_stands_apart_with_its_sweeps(
+    creep: Diagnosis, text: str
+) -> None:
+    assert "Extrapolation" not in text
+    assert creep.main is not None
+    gap = replace(creep.gaps[creep.main], before=77.7)
+    beyond = Extrapolation(("fast_sweep",), {creep.main: gap})
+    told = written(replace(creep, extrapolation=beyond))
+    assert "fast_sweep" in told
+    assert '<span class="value">77.7 N</span>' in told
+
+
+def test_a_recording_that_contradicts_itself_gets_no_verdict_in_disguise(
+    creep: Diagnosis,
+) -> None:
+    found = Contradiction(("a",), ("b",), "force_N", 12.5, "N", 2.0)
+    text = written(
+        replace(
+            creep, verdict=Verdict.UNUSABLE, named=(), gaps={}, main=None, where=(),
+            recording=replace(creep.recording, contradictions=(found,)),
+        )
+    )  # fmt: skip
+    assert "force_N of a differs from that of b by 12.5 N" in text
+    assert "Which, and how sure" not in text
+    assert "Constants of the model" not in text
 
 
 def test_where_nothing_was_found_nothing_is_said_to_be(creep: Diagnosis) -> None:

@@ -7,6 +7,7 @@ import uuid
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import AsyncExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
+from pathlib import Path
 from queue import Queue
 from random import Random
 from typing import Any
@@ -19,9 +20,18 @@ from gripperd.bench.modules import Modules
 from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Sensor, SensorSettings
 from gripperd.bench.server import serve_bench
-from gripperd.config import GripperSettings, Http, Settings, load_settings, shipped
+from gripperd.config import (
+    GripperSettings,
+    Http,
+    Settings,
+    load_model,
+    load_settings,
+    shipped,
+)
 from gripperd.control.gripper import Gripper
 from gripperd.control.loop import Loop
+from gripperd.demo.files import write_rig
+from gripperd.demo.rig import Hidden
 from gripperd.drivers.analog import AnalogRig
 from gripperd.drivers.bus import TcpAddress, open_bus
 from gripperd.link.bench import BenchDesk
@@ -29,8 +39,9 @@ from gripperd.link.client import Client
 from gripperd.link.control import ControlDesk
 from gripperd.link.server import serve as serve_link
 from gripperd.protocol.live_zero import LoopScale
-from gripperd.service.app import create_app
+from gripperd.service.app import create_app, living
 from gripperd.service.server import serve as serve_http
+from tests.demonstration import SEED, STEP
 
 STARTED_AT = 1_700_000_000.0
 Report = Callable[[str], None]
@@ -87,7 +98,8 @@ async def service(settings: Settings, report: Report, *, bench: bool) -> None:
     rig = Client(settings.runtime_dir / "bench.sock", "the bench") if bench else None
     app = create_app(settings, control, rig, started_at=STARTED_AT, version="1.2.3")
     try:
-        await serve_http(app, "127.0.0.1", 0, report)
+        async with living(app):
+            await serve_http(app, "127.0.0.1", 0, report)
     finally:
         await control.close()
         if rig is not None:
@@ -182,6 +194,11 @@ def whole_daemon(settings: Settings) -> Iterator[Daemon]:
 @pytest.fixture
 def daemon(whole_daemon: Daemon) -> Daemon:
     """The daemon, ready, with open jaws and nothing between them."""
+    return made_ready(whole_daemon)
+
+
+def made_ready(whole_daemon: Daemon) -> Daemon:
+    """A daemon, once it is ready, with open jaws and nothing between them."""
     http = whole_daemon.http
     http.delete("/v1/bench/faults")
     ready = "/v1/grippers/g0"
@@ -196,6 +213,50 @@ def daemon(whole_daemon: Daemon) -> Daemon:
         assert released.json()["status"] == "succeeded"
     http.delete("/v1/bench/object")
     return whole_daemon
+
+
+@pytest.fixture(scope="session")
+def rig_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A rig with creep: its recording, and the drawing's model, which has none."""
+    folder = tmp_path_factory.mktemp("rig")
+    write_rig(folder, Hidden.CREEP, SEED, STEP)
+    model = folder / "model.yaml"
+    gripper = (
+        "gripper: {open_width_mm: 85, width_per_contraction: 4.0,"
+        " spring_preload_N: 240, spring_rate_N_per_mm: 1.0}\n"
+    )
+    model.write_text(model.read_text() + gripper)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def drawn_settings(
+    settings: Settings, rig_folder: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Settings:
+    """The shipped bench, with a gripper whose model is the drawing's."""
+    model = load_model(rig_folder / "model.yaml")
+    gripper = replace(settings.grippers["g0"], model=model, chain=model.chain())
+    return replace(
+        settings,
+        grippers={"g0": gripper},
+        runtime_dir=tmp_path_factory.mktemp("drawn_run"),
+        state_dir=tmp_path_factory.mktemp("drawn_state"),
+    )
+
+
+@pytest.fixture(scope="session")
+def drawn_daemon(drawn_settings: Settings) -> Iterator[Daemon]:
+    with (
+        running(lambda report: whole(drawn_settings, report)) as url,
+        httpx.Client(base_url=url, timeout=30) as http,
+    ):
+        yield Daemon(url, http)
+
+
+@pytest.fixture
+def drawn(drawn_daemon: Daemon) -> Daemon:
+    """A daemon that goes by the drawing's model, ready, with empty jaws."""
+    return made_ready(drawn_daemon)
 
 
 @pytest.fixture(scope="module")

@@ -23,6 +23,7 @@ def snapshot(age: float | None, **channels: Reading) -> GripperState:
         command=None,
         holding="apple",
         link="up",
+        model="reference",
     )
 
 

@@ -6,6 +6,7 @@ import pytest
 
 from gripperd.config import Provenance, Settings, load_settings, shipped
 from gripperd.effects.creep import Creep
+from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.valve_lag import ValveLag
 from gripperd.errors import ConfigError
 from gripperd.model import StaticMuscle
@@ -56,3 +57,19 @@ def test_a_version_whose_valve_the_module_cannot_drive_is_refused(
     versions.activate(1)
     with pytest.raises(ConfigError, match=r"valve\.current_mA ends at 23\.5 mA"):
         with_active_models(settings)
+
+
+def test_a_version_that_no_current_closes_is_refused(
+    settings: Settings, provenance: Provenance
+) -> None:
+    configured = settings.grippers["g0"]
+    versions = versions_of(settings, configured)
+    # All of the supply's loss and more: the pressure falls as the current rises.
+    model = replace(
+        configured.model, effects=(SupplySaturation(share=1.2, limit=0.05),)
+    )
+    versions.add(model, parent=0, created_at=NOW, provenance=provenance)
+    versions.activate(1)
+    with pytest.raises(ConfigError, match="does not close") as refused:
+        with_active_models(settings)
+    assert "4 mA and 20 mA give" in str(refused.value)

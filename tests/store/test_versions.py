@@ -200,3 +200,15 @@ def test_two_writers_at_once_lose_no_version(
     shelf = Versions(tmp_path, base).all()
     assert [version.number for version in shelf.versions] == [0, 1, 2, 3, 4, 5, 6]
     assert shelf.complaints == ()
+
+
+def test_the_version_before_is_told_without_going_back(
+    versions: Versions, provenance: Provenance
+) -> None:
+    base = versions.get(0).model
+    versions.add(base, parent=0, created_at=NOW, provenance=provenance)
+    with pytest.raises(Refused, match="version 0 was the first"):
+        versions.before()
+    versions.activate(1)
+    assert versions.before().number == 0
+    assert versions.active == 1
