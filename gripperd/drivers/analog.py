@@ -108,15 +108,16 @@ class AnalogRig:
 
     @property
     def facts(self) -> RigFacts:
-        """What is known of the modules by now."""
+        """What is known of the modules; what they confirmed holds until a failure."""
         wiring, inputs = self._input_wiring, self._inputs
+        sensed = self._inputs_attached
         return RigFacts(
             output=output_facts(
                 self._output_wiring,
-                range_verified=self._output.range_verified,
-                armed=self._output.armed,
+                range_verified=self._attached and self._output.range_verified,
+                armed=self._attached and self._output.armed,
             ),
-            input=input_facts(wiring, range_verified=inputs.range_verified)
+            input=input_facts(wiring, range_verified=sensed and inputs.range_verified)
             if wiring and inputs
             else None,
         )

@@ -48,6 +48,8 @@ class OutputFacts(ModuleFacts):
     safe_current: float | None
     """Output on time-out; None where it is not known. [A]"""
     power_on: str
+    when_silent: str
+    """What becomes of the current when this daemon falls silent, for a person."""
     read_back_measured: bool
     """Whether the current that is read back is more than the set-point's echo."""
 
@@ -73,6 +75,7 @@ def output_facts(
     if safe is None and watchdog is not None:
         safe = watchdog.safe_current
     module = wiring.module
+    acts = watchdog.acts if watchdog else None
     return OutputFacts(
         module=module.name,
         title=module.title,
@@ -83,9 +86,10 @@ def output_facts(
         range_verified=range_verified,
         watchdog=state,
         watchdog_timeout=timeout,
-        watchdog_acts=watchdog.acts if watchdog else None,
+        watchdog_acts=acts,
         safe_current=safe,
         power_on=module.power_on,
+        when_silent=acts if acts and state is WatchdogState.ARMED else KEEPS,
         read_back_measured=_measured(wiring),
     )
 

@@ -40,6 +40,10 @@ class ReadOverview(msgspec.Struct, frozen=True, tag=True):
     """Ask for the :class:`Overview`."""
 
 
+class ReadModules(msgspec.Struct, frozen=True, tag=True):
+    """Ask for the :class:`RigFacts` of every gripper, by its name."""
+
+
 class ReadState(msgspec.Struct, frozen=True, tag=True):
     """Ask for a :class:`GripperState`."""
 
@@ -117,6 +121,7 @@ Request: TypeAlias = (
     | Disable
     | ReadBuses
     | ReadTraffic
+    | ReadModules
     | UseModel
 )
 
@@ -146,6 +151,8 @@ class ControlDesk:
             return Overview(names, self._real_time, overruns, self._started_at)
         if isinstance(request, ReadBuses | ReadTraffic):
             return self._buses.respond(request)
+        if isinstance(request, ReadModules):
+            return {name: loop.facts for name, loop in self._loops.items()}
         if isinstance(request, UseModel):
             loops = [self._loop(name) for name in request.grippers]
             swap([loop.gripper for loop in loops], chain_of(request.model))
