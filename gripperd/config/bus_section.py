@@ -97,8 +97,8 @@ class TcpSection(Section):
 
     @property
     def manner(self) -> str:
-        """How it is asked, for a person."""
-        return f"asked with timeout_ms {self.timeout_ms:g}"
+        """How it is set up, for a person."""
+        return f"timeout_ms {self.timeout_ms:g}"
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -157,7 +157,7 @@ class SerialSection(Section):
 
     @property
     def manner(self) -> str:
-        """How it is asked, for a person."""
+        """How it is set up, for a person."""
         given = ((key, value) for key, value in self if key != "serial")
         return ", ".join(f"{key} {shown(value)}" for key, value in given)
 

@@ -17,6 +17,7 @@ from gripperd.config.bus_section import (
     HostPort,
     dialect_on,
 )
+from gripperd.config.bus_sharing import check_one_way
 from gripperd.config.directories import runtime_dir, state_dir
 from gripperd.config.document import Document, read_document
 from gripperd.config.location import shipped
@@ -184,6 +185,7 @@ class SettingsSection(Section):
     def _share_nothing(
         cls, grippers: dict[str, GripperSection]
     ) -> dict[str, GripperSection]:
+        check_one_way({name: gripper.bus for name, gripper in grippers.items()})
         owner: dict[str, str] = {}
         for name, gripper in grippers.items():
             for thing, use in _uses(name, gripper):
@@ -216,7 +218,6 @@ def _uses(name: str, gripper: GripperSection) -> Iterator[tuple[str, str]]:
         yield "the bench", f"the rig of {name}"
     else:
         where = str(bus.address)
-        yield f"the bus at {where}", bus.manner
     # A device without an address has its line for itself.
     unit = f"unit {output.unit} on {where}" if output.unit else f"the device on {where}"
     yield unit, output.module.name

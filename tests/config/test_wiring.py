@@ -54,7 +54,7 @@ def test_a_serial_line_has_every_setting_of_its_port(gripper: Load) -> None:
         parity="E",
         stop_bits=1,
         local_echo=True,
-        timeout=0.3,
+        timeout=0.25,
     )
     assert loaded.output.dialect is ModuleDialect.MODBUS
 
