@@ -12,8 +12,9 @@ run: $(VENV)/installed
 test: $(VENV)/developing
 	$(BIN)/pytest
 
+# All of them, unless ONLY names some: physics, plant, bus, faults, outage, latency.
 bench: $(VENV)/developing
-	$(BIN)/python -m tests.benchmarks
+	$(BIN)/python -m tests.benchmarks $(ONLY)
 
 # N inputs in all, a million unless told otherwise.
 fuzz: $(VENV)/developing

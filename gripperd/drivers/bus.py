@@ -15,7 +15,7 @@ from gripperd.drivers.address import (
 )
 from gripperd.drivers.exchange import Exchange, Trace
 from gripperd.drivers.owner import Bus
-from gripperd.drivers.serial_line import SerialConnector
+from gripperd.drivers.serial_connector import SerialConnector
 from gripperd.drivers.statistics import BusStatistics
 from gripperd.drivers.tcp import TcpConnector
 from gripperd.protocol import dcon, itv, mbap, modbus, rtu

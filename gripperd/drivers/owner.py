@@ -13,6 +13,7 @@ from typing import Generic, TypeVar
 from gripperd.drivers.address import Address
 from gripperd.drivers.exchange import Exchange, Trace
 from gripperd.drivers.line import Connector, Line
+from gripperd.drivers.presence import Presence
 from gripperd.drivers.statistics import BusStatistics
 from gripperd.drivers.turns import Turns
 from gripperd.errors import DeviceRefused, LinkError, LinkLost
@@ -67,6 +68,7 @@ class Bus(Generic[Q, R]):
         self._draining: asyncio.Task[None] | None = None
         self._sequence = 0
         self._now = time.monotonic
+        self._presence = Presence(str(address))
 
     async def ask(self, request: Q | Callable[[], Q], *, urgent: bool = False) -> R:
         """Send one request, once, and return its checked reply.
@@ -123,10 +125,13 @@ class Bus(Generic[Q, R]):
             answer = self._dialect.decode(request, sequence, frame)
         except BaseException as error:
             reply = frame or bytes(line.received)
+            if isinstance(error, DeviceRefused):
+                self._presence.answers()
             self._count(line, error)
             self._tell(sent, octets, reply, error)
             raise
         line.proved = True
+        self._presence.answers()
         self.statistics.latency.add(self._now() - sent)
         self._tell(sent, octets, frame, None)
         return answer
@@ -159,11 +164,20 @@ class Bus(Generic[Q, R]):
             return
         # Cancelled in flight, a misfit reply or a lost peer: what comes next could
         # answer the wrong question.
-        line.spoil()
         if line.closed.is_set():
             self._lose(line)
+            return
+        line.spoil()
+        if line.closed.is_set():
+            self._drop(line)
 
     def _lose(self, line: Line[Q]) -> None:
+        """Note that the peer has gone, if nobody has yet."""
+        if line is self._line:
+            self._drop(line)
+            self._presence.lost(self._outage)
+
+    def _drop(self, line: Line[Q]) -> None:
         self.up.clear()
         self._outage = line.outage
         self._line = None
@@ -185,6 +199,7 @@ class Bus(Generic[Q, R]):
                 line = await self._connector.open()
             except LinkLost as error:
                 self._outage = str(error)
+                self._presence.lost(self._outage)
                 self.statistics.errors["connect"] += 1
                 await asyncio.sleep(pause)
                 pause = min(2 * pause, LAST_BACK_OFF)
@@ -202,4 +217,4 @@ class Bus(Generic[Q, R]):
         """Close the line, if there is one."""
         if self._line is not None:
             self._line.close()
-            self._lose(self._line)
+            self._drop(self._line)

@@ -12,18 +12,14 @@ References
 import asyncio
 import os
 import termios
-import time
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 import serial
-import structlog
 
 from gripperd.drivers.address import LONGEST_DRAIN, SerialAddress
 from gripperd.drivers.line import Cut, Line
-from gripperd.drivers.serial_port import SYSFS, latency_timer, open_port
 from gripperd.drivers.statistics import BusStatistics
 from gripperd.errors import BadReply, LinkLost
 
@@ -31,8 +27,6 @@ Q = TypeVar("Q")
 
 MOST_READ = 4096
 """What the kernel keeps of a port at most."""
-
-log = structlog.get_logger()
 
 
 class SerialLine(Line[Q]):
@@ -169,79 +163,3 @@ class SerialLine(Line[Q]):
             return
         self._heard = self._now()
         self.hear(octets)
-
-
-class SerialConnector(Generic[Q]):
-    """Opens one serial port, again after every loss.
-
-    Parameters
-    ----------
-    address
-        Where it is.
-    cut
-        Finds the end of a reply.
-    statistics
-        Counts what is thrown away.
-    silence
-        Before every request, as the grammar asks. [s]
-    now
-        A clock that never steps. [s]
-    sysfs
-        Where the kernel tells about its devices.
-    """
-
-    def __init__(
-        self,
-        address: SerialAddress,
-        cut: Cut[Q],
-        statistics: BusStatistics,
-        silence: float,
-        now: Callable[[], float] = time.monotonic,
-        sysfs: Path = SYSFS,
-    ) -> None:
-        self._address = address
-        self._cut = cut
-        self._statistics = statistics
-        self._silence = silence if address.silence is None else address.silence
-        self._now = now
-        self._sysfs = sysfs
-        self._told = False
-
-    async def open(self) -> Line[Q]:
-        """Open the port and wait until it is quiet.
-
-        Raises
-        ------
-        LinkLost
-            It does not open, or never falls quiet.
-        """
-        line = SerialLine(
-            open_port(self._address),
-            self._address,
-            self._cut,
-            self._statistics,
-            self._silence,
-            self._now,
-        )
-        self._tell_latency()
-        try:
-            await line.drain()
-        except asyncio.CancelledError:
-            line.close()
-            raise
-        if line.closed.is_set():
-            raise LinkLost(line.outage)
-        return line
-
-    def _tell_latency(self) -> None:
-        """Log once that the adapter delays every reply."""
-        delay = latency_timer(self._address.port, self._sysfs)
-        if self._told or delay is None or delay <= 1:
-            return
-        self._told = True
-        log.warning(
-            "the serial adapter gathers octets before it passes them on;"
-            " see docs/serial.md",
-            port=self._address.port,
-            latency_timer_ms=delay,
-        )

@@ -2,18 +2,22 @@
 
 import asyncio
 import os
+import threading
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
+import serial
 from structlog.testing import capture_logs
 
 from gripperd.drivers.bus import (
     RtuAddress,
+    SerialAddress,
     open_bus,
 )
-from gripperd.drivers.serial_line import SerialConnector
+from gripperd.drivers.serial_connector import SerialConnector
+from gripperd.drivers.serial_port import open_port
 from gripperd.drivers.statistics import BusStatistics
 from gripperd.errors import LinkLost
 from gripperd.protocol.rtu import ModbusRtu
@@ -121,3 +125,58 @@ async def test_a_slow_adapter_is_told_of_once(path: Path, tmp_path: Path) -> Non
             for _ in range(2):
                 (await connector.open()).close()
     assert [entry["latency_timer_ms"] for entry in logs] == [16]
+
+
+async def test_a_port_that_takes_its_time_to_open_stops_nobody(path: Path) -> None:
+    go, began, ports = threading.Event(), threading.Event(), list[serial.Serial]()
+
+    def slowly(address: SerialAddress) -> serial.Serial:
+        began.set()
+        go.wait(SOON)
+        ports.append(open_port(address))
+        return ports[0]
+
+    async with plugged(path):
+        connector = SerialConnector(
+            RtuAddress(port=str(path), timeout=PATIENCE),
+            ModbusRtu().frame_length,
+            BusStatistics(),
+            silence=0.0,
+            open_=slowly,
+        )
+        opening = asyncio.create_task(connector.open())
+        await asyncio.to_thread(began.wait, SOON)
+        # Whoever waited for the port in this thread would never come here.
+        opening.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await opening
+        go.set()
+        async with asyncio.timeout(SOON):
+            while not ports or ports[0].is_open:  # noqa: ASYNC110
+                await asyncio.sleep(0.001)
+
+
+async def test_a_bus_that_comes_and_goes_is_logged_once_each(
+    path: Path, eventually: Eventually
+) -> None:
+    with capture_logs() as logs:
+        async with open_bus(RtuAddress(port=str(path), timeout=PATIENCE)) as bus:
+            await eventually(lambda: bus.statistics.errors["connect"] > 1)
+            async with plugged(path) as far:
+                await up(bus)
+                for _ in range(2):
+                    await bus.ask(read(0))
+                far.unplug()
+                await eventually(lambda: bus.statistics.errors["connect"] > 3)
+                far.plug()
+                await up(bus)
+                await bus.ask(read(0))
+    assert [entry["event"] for entry in logs] == [
+        "bus is lost",
+        "bus answers",
+        "bus is lost",
+        "bus answers",
+    ]
+    assert "does not exist" in logs[0]["cause"]
+    assert "gone" in logs[2]["cause"]
+    assert {entry["bus"] for entry in logs} == {str(path)}
