@@ -128,7 +128,8 @@ class AnalogRig:
         Raises
         ------
         ModuleMismatch
-            A module is set up otherwise than the settings say.
+            The output module is set up otherwise than the settings say. Where the
+            input module is, its sensors are bad.
         WatchdogTripped
             The output is at its safe value until a person clears it.
         LinkError
@@ -179,7 +180,7 @@ class AnalogRig:
                 await self._inputs.attach()
                 self._inputs_attached = True
             return await self._inputs.read()
-        except DeviceRefused as error:
+        except (DeviceRefused, ModuleMismatch) as error:
             # The line is sound: without its sensors the valve can still be driven.
             self._inputs_attached = False
             bad = Reading.bad(str(error))

@@ -3,7 +3,6 @@ import pytest
 from gripperd.config.module_library import ModuleLibrary
 from gripperd.drivers.analog import AnalogRig, InputWiring, OutputWiring, SensorWiring
 from gripperd.drivers.bus import ModbusBus
-from gripperd.errors import ModuleMismatch
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.protocol.modbus import Read, Table
 from gripperd.signals import Measurement, Quality
@@ -129,10 +128,21 @@ async def test_all_sensors_are_read_in_one_request() -> None:
     ]
 
 
-async def test_a_range_that_is_not_the_wanted_one_is_refused() -> None:
-    registers = adam_6217(codes=holding(202, 0x182))
-    with pytest.raises(ModuleMismatch, match=r"channel 2 of adam_6217, unit 2, has"):
-        await measured(registers, wired("adam_6217"))
+async def test_a_wrong_range_makes_the_sensors_bad_and_leaves_the_valve_driven() -> (
+    None
+):
+    device = Device(VALVE | adam_6217(codes=holding(202, 0x182)))
+    async with on_the_wire(device) as bus:
+        analog = rig(bus, wired("adam_6217"))
+        sample = await analog.read(0.0)
+        await analog.write(0.0107)
+        device.registers |= holding(202, 0x180)
+        mended = await analog.read(1.0)
+    for sensor in (sample.pressure, sample.grip):
+        assert (sensor.value, sensor.quality) == (None, Quality.BAD)
+        assert "channel 2 of adam_6217, unit 2, has range code 0x0182" in sensor.cause
+    assert mended.current.value == pytest.approx(0.0107)
+    assert mended.grip.quality is Quality.GOOD
 
 
 async def test_channels_that_nobody_uses_may_have_any_range() -> None:
