@@ -3,9 +3,9 @@
 from collections.abc import Callable, Sequence
 
 from gripperd.bench.host_watchdog import HostWatchdog
-from gripperd.bench.sentences import OPEN, condition, lasts, sign
 from gripperd.protocol.encoding import Range
-from gripperd.protocol.modules import InputModule, OutputModule, Status
+from gripperd.protocol.live_zero import BROKEN_ABOVE, BROKEN_BELOW
+from gripperd.protocol.modules import Condition, InputModule, OutputModule, Status
 from gripperd.protocol.watchdog import Watchdog
 
 
@@ -33,16 +33,17 @@ class Outputs:
     ) -> None:
         chosen, watchdog = module.range(range_name), _watchdog(module)
         safe = watchdog.safe_current if watchdog else None
-        # No description gives these two as numbers: the least current of the range.
+        # Where a description gives no number: the least current of the range.
         least = max(chosen.current_low, 0.0)
+        known = module.power_on_current
         self.module = module
         self.ranges = [chosen] * module.channels
-        self.power_on = [least] * module.channels
+        self.power_on = [least if known is None else known] * module.channels
         """What each channel starts with. [A]"""
         self.safe = [least if safe is None else safe] * module.channels
         """What each channel goes to when the watchdog trips. [A]"""
         self.watchdog = HostWatchdog(now)
-        self._trip_lasts = watchdog is not None and lasts(watchdog.acts)
+        self._trip_lasts = watchdog is not None and watchdog.survives_power_cycle
         self._drive = drive
         self._loop_open = False
         self._currents = list(self.power_on)
@@ -94,7 +95,7 @@ class Outputs:
         """Status of each channel."""
         safe = self.watchdog.tripped and status.fail_safe is not None
         common = 1 << (status.fail_safe or 0) if safe else 0
-        cut = sign(status, OPEN) if self._loop_open else 0
+        cut = status.signs.get(Condition.OPEN, 0) if self._loop_open else 0
         return [common | cut, *[common] * (self.module.channels - 1)]
 
     def _set_all(self, currents: Sequence[float]) -> None:
@@ -141,10 +142,17 @@ class Inputs:
         """Lose power and get it back: a range is kept."""
 
     def condition(self, status: Status, channel: int, current: float) -> int:
-        """Status of a channel at a current. [A]."""
+        """Status of a channel at a current; 0 while the loop is sound. [A].
+
+        The limits are those of NAMUR NE 43; modules have limits of their own.
+        """
         # A range that begins at 0 mA knows no broken loop.
-        live = self.ranges[channel].current_low > 0.0
-        return condition(status, current) if live else 0
+        if self.ranges[channel].current_low <= 0.0:
+            return 0
+        if current < BROKEN_BELOW:
+            under = status.signs.get(Condition.UNDER, 0)
+            return status.signs.get(Condition.OPEN, under)
+        return status.signs.get(Condition.OVER, 0) if current > BROKEN_ABOVE else 0
 
     def conditions(self, status: Status) -> Sequence[int]:
         """Status of each channel now."""

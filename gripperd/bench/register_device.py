@@ -2,23 +2,17 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from gripperd.bench.banks import (
-    Bank,
-    Currents,
-    Format,
-    Place,
-    RangeCodes,
-    SetPoints,
-    Statuses,
-    Words,
-    WriteOnly,
-)
+from gripperd.bench.banks import Bank, Fixed, Format, Place, RangeCodes, Statuses, Words
 from gripperd.bench.channels import Inputs, Outputs
+from gripperd.bench.current_banks import Currents, Outlets, SetPoints
 from gripperd.bench.watchdog_bank import WatchdogBank
 from gripperd.errors import InputError
 from gripperd.protocol.encoding import Registers
 from gripperd.protocol.modbus import Read, Refusal, Request, Table, WriteCoil
 from gripperd.protocol.modules import OutputMap, RegisterMap
+
+VERSION = 100
+"""Firmware version of every simulated module, times 100."""
 
 
 class RegisterDevice:
@@ -120,6 +114,10 @@ def _banks(module: Outputs | Inputs) -> Iterator[Bank]:
         yield RangeCodes(map_.range_code, module.module, module.ranges, module.choose)
     if map_.required is not None:
         yield Format(map_.required)
+    if map_.type_name is not None:
+        yield Fixed(map_.type_name.registers, map_.type_name.code)
+    if map_.version is not None:
+        yield Fixed(map_.version, VERSION)
     if map_.status is not None and map_.status.registers is not None:
         channels = module.module.channels
         status = map_.status
@@ -127,16 +125,8 @@ def _banks(module: Outputs | Inputs) -> Iterator[Bank]:
 
 
 def _output_banks(module: Outputs, map_: OutputMap) -> Iterator[Bank]:
-    apart = map_.read_back != map_.values
-    yield (WriteOnly if apart else SetPoints)(
-        map_.values,
-        map_.encoding,
-        module.ranges,
-        module.currents,
-        module.put_out,
-        lambda: module.watchdog.tripped,
-    )
-    if apart:
+    yield Outlets(module, map_)
+    if map_.read_back != map_.values:
         back = module.currents if map_.echo else module.delivered
         yield Currents(map_.read_back, map_.encoding, module.ranges, back)
     if map_.safe is not None:
@@ -146,7 +136,6 @@ def _output_banks(module: Outputs, map_: OutputMap) -> Iterator[Bank]:
             module.ranges,
             lambda: module.safe,
             module.safe.__setitem__,
-            lambda: False,
         )
     if map_.watchdog is not None:
         yield WatchdogBank(map_.watchdog, module.watchdog)

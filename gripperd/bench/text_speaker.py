@@ -5,9 +5,11 @@ Such a line has no exceptions: one stands for an invalid or unknown command here
 
 from collections.abc import Callable
 
+from gripperd.bench.itv_device import ItvDevice
 from gripperd.bench.modules import Modules
 from gripperd.bench.speaker import Speaker
-from gripperd.bench.text_device import Grant, ItvDevice, TextDevice
+from gripperd.bench.text_device import TextDevice
+from gripperd.bench.text_line import Grant
 from gripperd.errors import InputError
 from gripperd.protocol import dcon, itv
 from gripperd.protocol.modules import ModuleDialect

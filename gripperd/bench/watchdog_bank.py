@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 from gripperd.bench.banks import Bank, Place, Words
 from gripperd.bench.host_watchdog import HostWatchdog
-from gripperd.bench.sentences import remedy
 from gripperd.protocol.modbus import Refusal, Table
 from gripperd.protocol.watchdog import RegisterWatchdog, Setting
 
@@ -23,7 +22,7 @@ class WatchdogBank(Bank):
     def __init__(self, described: RegisterWatchdog, clock: HostWatchdog) -> None:
         self._described = described
         self._clock = clock
-        self._clear = remedy(described.clear)
+        self._clear = described.clear
         self._time: Place = (Table.HOLDING, described.time)
         self._written = dict.fromkeys(map(_place, described.arm), 0)
         self._steps = 0

@@ -4,9 +4,11 @@ import asyncio
 import json
 import re
 from collections.abc import Sequence
+from logging import CRITICAL
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+import structlog
 import typer
 
 from gripperd.cli.app import FAILED, ConfigFile, Json, app
@@ -64,6 +66,8 @@ def doctor(  # noqa: PLR0913  (its options)
     from gripperd.config import load_settings
 
     _check_targets(port, tcp, write)
+    # What happens to a line is among the findings.
+    structlog.configure(wrapper_class=structlog.make_filtering_bound_logger(CRITICAL))
     numbers = _units(units)
     attempts: Sequence[Attempt] = ()
     if tcp is not None:

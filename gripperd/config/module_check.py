@@ -22,6 +22,7 @@ def contradictions(
     """Everything in a description that cannot be meant."""
     yield from _speechless(module, document)
     yield from _uncounted(module, document)
+    yield from _meaningless(module, document)
     yield from _contradicted(module, vectors, document)
 
 
@@ -39,9 +40,23 @@ def _uncounted(module: AnyModule, document: Document) -> Iterator[Complaint]:
         if whole and (each.count_low, each.count_high) == ends:
             detail = "counts are missing: integer registers do not count in mA"
             yield document.complaint(("ranges", name), detail)
-        if module.modbus and module.modbus.range_code and each.code is None:
+        if _asks_for_codes(module) and each.code is None:
             detail = "code is missing: there is a range_code to compare it with"
             yield document.complaint(("ranges", name), detail)
+
+
+def _asks_for_codes(module: AnyModule) -> bool:
+    spoken = (phrases.range_code for phrases in module.phrases.values())
+    return any((module.modbus and module.modbus.range_code, *spoken))
+
+
+def _meaningless(module: AnyModule, document: Document) -> Iterator[Complaint]:
+    """Signs that nobody would be told of."""
+    status = module.modbus.status if module.modbus else None
+    for condition, sign in (status.signs if status else {}).items():
+        if status and not status.causes((sign & 0xFFFF, sign >> 16)):
+            detail = f"{sign} stands neither in bits nor in codes"
+            yield document.complaint(("modbus", "status", "signs", condition), detail)
 
 
 def _contradicted(

@@ -1,10 +1,13 @@
 """Descriptions of analog modules as files: the schema."""
 
+# ruff: noqa: N815  (names carry units, and units have capitals)
+
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from gripperd.config.module_parts import (
+    NameSection,
     RangeSection,
     ReadBackSection,
     RegistersSection,
@@ -17,11 +20,13 @@ from gripperd.config.module_parts import (
 from gripperd.config.module_watchdogs import (
     PhraseSection,
     PhraseWatchdogSection,
+    RangePhraseSection,
     RegisterWatchdogSection,
 )
-from gripperd.config.section import Name, Section
+from gripperd.config.section import Milliamperes, Name, Section, numbers
 from gripperd.protocol.encoding import Range
 from gripperd.protocol.modules import (
+    Beyond,
     Evidence,
     InputModule,
     InputPhrases,
@@ -40,6 +45,8 @@ class ModbusInputSection(Section):
     range_code: RegistersSection | None = None
     required: RequiredSection | None = None
     status: StatusSection | None = None
+    type_name: NameSection | None = None
+    version: RegistersSection | None = None
 
     @property
     def map(self) -> RegisterMap:
@@ -50,6 +57,8 @@ class ModbusInputSection(Section):
             range_code=self.range_code.registers if self.range_code else None,
             required=self.required.required if self.required else None,
             status=self.status.status if self.status else None,
+            type_name=self.type_name.type_name if self.type_name else None,
+            version=self.version.registers if self.version else None,
         )
 
 
@@ -60,6 +69,7 @@ class ModbusOutputSection(ModbusInputSection):
     """Without it, the registers that are written."""
     safe: RegistersSection | None = None
     watchdog: RegisterWatchdogSection | None = None
+    beyond_range: Annotated[Beyond, Field(strict=False)] = Beyond.REFUSED
 
     @property
     def map(self) -> OutputMap:
@@ -72,10 +82,13 @@ class ModbusOutputSection(ModbusInputSection):
             range_code=plain.range_code,
             required=plain.required,
             status=plain.status,
+            type_name=plain.type_name,
+            version=plain.version,
             read_back=back.registers if back else plain.values,
             echo=back.echo if back else True,
             safe=self.safe.registers if self.safe else None,
             watchdog=self.watchdog.watchdog if self.watchdog else None,
+            beyond_range=self.beyond_range,
         )
 
 
@@ -85,13 +98,21 @@ class AsciiReadBackSection(PhraseSection):
     echo: bool = True
 
 
-class AsciiOutputSection(Section):
+class AsciiSection(Section):
+    """What every module that speaks lines of text has."""
+
+    range_code: RangePhraseSection | None = None
+    type_name: PhraseSection | None = None
+
+
+class AsciiOutputSection(AsciiSection):
     """Outputs in lines of text."""
 
     write: PhraseSection
     read_back: AsciiReadBackSection
     safe: PhraseSection | None = None
     watchdog: PhraseWatchdogSection | None = None
+    beyond_range: Annotated[Beyond, Field(strict=False)] = Beyond.CLAMPED_AND_TOLD
 
     @property
     def phrases(self) -> OutputPhrases:
@@ -102,10 +123,13 @@ class AsciiOutputSection(Section):
             echo=self.read_back.echo,
             safe=self.safe.phrase if self.safe else None,
             watchdog=self.watchdog.watchdog if self.watchdog else None,
+            beyond_range=self.beyond_range,
+            range_code=self.range_code.range_phrase if self.range_code else None,
+            type_name=self.type_name.phrase if self.type_name else None,
         )
 
 
-class AsciiInputSection(Section):
+class AsciiInputSection(AsciiSection):
     """Inputs in lines of text."""
 
     read: PhraseSection
@@ -113,7 +137,11 @@ class AsciiInputSection(Section):
     @property
     def phrases(self) -> InputPhrases:
         """The same for the driver."""
-        return InputPhrases(read=self.read.phrase)
+        return InputPhrases(
+            read=self.read.phrase,
+            range_code=self.range_code.range_phrase if self.range_code else None,
+            type_name=self.type_name.phrase if self.type_name else None,
+        )
 
 
 class ModuleSection(Section):
@@ -139,6 +167,7 @@ class OutputSchema(ModuleSection):
 
     kind: Literal["output"]
     power_on: Sentence
+    power_on_mA: Milliamperes | None = None
     modbus: ModbusOutputSection | None = None
     dcon: AsciiOutputSection | None = None
     adam_ascii: AsciiOutputSection | None = None
@@ -159,6 +188,7 @@ class OutputSchema(ModuleSection):
             channels=self.channels,
             ranges=self.named_ranges(),
             power_on=self.power_on,
+            power_on_current=numbers(self).get("power_on"),
             modbus=self.modbus.map if self.modbus else None,
             phrases={name: said.phrases for name, said in spoken.items() if said},
             itv=self.itv,

@@ -23,7 +23,7 @@ from gripperd.protocol.encoding import (
     WordOrder,
 )
 from gripperd.protocol.modbus import Table
-from gripperd.protocol.modules import Required, Status
+from gripperd.protocol.modules import Condition, NameRegister, Required, Status
 
 TABLES = {table.name.lower(): table for table in Table}
 HEXADECIMAL = re.compile(r"0x[0-9A-Fa-f]{1,8}")
@@ -55,6 +55,8 @@ def _power_of_two(number: int) -> int:
 
 Word: TypeAlias = Annotated[int, BeforeValidator(_whole), Field(ge=0, le=0xFFFF)]
 """A register, or what it holds, in decimal or as 0x..."""
+Whole: TypeAlias = Annotated[int, BeforeValidator(_whole), Field(ge=0, le=0xFFFF_FFFF)]
+"""What one or two registers hold."""
 Bit: TypeAlias = Annotated[int, BeforeValidator(_whole), Field(ge=0, le=31)]
 Sentence: TypeAlias = Annotated[str, Field(min_length=1, max_length=1000)]
 TableName: TypeAlias = Annotated[Table, PlainValidator(_table)]
@@ -141,6 +143,18 @@ class RequiredSection(RegistersSection):
         return Required(registers=self.registers, code=self.code, meaning=self.meaning)
 
 
+class NameSection(RegistersSection):
+    """The register in which a module says its type."""
+
+    stride: int = Field(default=0, ge=0, le=1000)
+    code: Word
+
+    @property
+    def type_name(self) -> NameRegister:
+        """The same for the driver."""
+        return NameRegister(self.registers, self.code)
+
+
 class StatusSection(Section):
     """What is said about a channel besides its value."""
 
@@ -151,6 +165,10 @@ class StatusSection(Section):
     bits: dict[Bit, Sentence] = Field(default_factory=dict)
     codes: dict[Word, Sentence] = Field(default_factory=dict)
     fail_safe_bit: Bit | None = None
+    signs: dict[Annotated[Condition, Field(strict=False)], Whole] = Field(
+        default_factory=dict
+    )
+    """What the whole status is when a loop is open, under or over its range."""
 
     @property
     def status(self) -> Status:
@@ -164,4 +182,5 @@ class StatusSection(Section):
             bits=self.bits,
             codes=self.codes,
             fail_safe=self.fail_safe_bit,
+            signs=self.signs,
         )

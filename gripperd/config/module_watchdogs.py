@@ -14,6 +14,7 @@ from gripperd.config.module_parts import Sentence, TableName, Word
 from gripperd.config.section import Milliamperes, Section, numbers
 from gripperd.config.wording import shown
 from gripperd.protocol.modbus import Table
+from gripperd.protocol.modules import RangePhrase
 from gripperd.protocol.phrase import ASK, PLACES, REPLY, Phrase
 from gripperd.protocol.watchdog import PhraseWatchdog, RegisterWatchdog, Setting
 
@@ -76,7 +77,7 @@ class WatchdogSection(Section):
     step_s: Seconds
     longest_s: Seconds
     acts: Sentence
-    clear: Sentence
+    survives_power_cycle: bool = False
     safe_current_mA: Milliamperes | None = None
 
 
@@ -87,6 +88,7 @@ class RegisterWatchdogSection(WatchdogSection):
     arm: list[SettingSection]
     armed: SettingSection | None = None
     tripped: SettingSection | None = None
+    clear: SettingSection | None = None
     keep: list[SettingSection] = Field(default_factory=list)
 
     @property
@@ -98,8 +100,9 @@ class RegisterWatchdogSection(WatchdogSection):
             armed=self.armed.setting if self.armed else None,
             tripped=self.tripped.setting if self.tripped else None,
             keep=tuple(each.setting for each in self.keep),
+            clear=self.clear.setting if self.clear else None,
             acts=self.acts,
-            clear=self.clear,
+            survives_power_cycle=self.survives_power_cycle,
             **numbers(self),
         )
 
@@ -116,6 +119,17 @@ class PhraseSection(Section):
         return Phrase(self.ask, self.reply)
 
 
+class RangePhraseSection(PhraseSection):
+    """A line that asks for the range; ``{value}`` begins with its code."""
+
+    rest: str = Field(default="", max_length=20, pattern="^[0-9A-F]*$")
+
+    @property
+    def range_phrase(self) -> RangePhrase:
+        """The same for the driver."""
+        return RangePhrase(self.phrase, self.rest)
+
+
 class PhraseWatchdogSection(WatchdogSection):
     """A watchdog set by lines of text."""
 
@@ -123,6 +137,7 @@ class PhraseWatchdogSection(WatchdogSection):
     armed: PhraseSection | None = None
     status: PhraseSection | None = None
     tripped_bits: Word = 0
+    clear: PhraseSection | None = None
     keep: PhraseSection | None = None
     digits: int = Field(default=2, ge=1, le=8)
     radix: int = Field(default=16)
@@ -146,7 +161,8 @@ class PhraseWatchdogSection(WatchdogSection):
             keep=self.keep.phrase if self.keep else None,
             digits=self.digits,
             radix=self.radix,
+            clear=self.clear.phrase if self.clear else None,
             acts=self.acts,
-            clear=self.clear,
+            survives_power_cycle=self.survives_power_cycle,
             **numbers(self),
         )

@@ -24,6 +24,7 @@ from gripperd.config.location import shipped
 from gripperd.config.model import ModelFile, load_model
 from gripperd.config.module_library import ModuleLibrary
 from gripperd.config.profile import load_profiles
+from gripperd.config.range_check import check_driven, check_set_range
 from gripperd.config.section import Name, Section
 from gripperd.config.settings import (
     KEYLESS,
@@ -43,7 +44,6 @@ from gripperd.config.wiring import (
     OutputSection,
     check_bench_input,
     check_bench_output,
-    check_driven,
 )
 from gripperd.config.wording import shown
 from gripperd.control.profile import Profile
@@ -119,7 +119,9 @@ class GripperSection(Section):
     ) -> OutputSection:
         bus = read.data.get("bus")
         if bus is not None:
-            check_watchdog(output.wiring(dialect_on(bus, output.module)))
+            wiring = output.wiring(dialect_on(bus, output.module))
+            check_watchdog(wiring)
+            check_set_range(wiring)
         if bus == BENCH:
             check_bench_output(output)
         return output
@@ -133,7 +135,7 @@ class GripperSection(Section):
         if bus == BENCH:
             check_bench_input(inputs)
         if bus is not None and inputs is not None:
-            dialect_on(bus, inputs.module)
+            check_set_range(inputs.wiring(dialect_on(bus, inputs.module)))
         return inputs
 
     @field_validator("model")

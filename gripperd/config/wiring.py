@@ -25,11 +25,8 @@ from gripperd.drivers.analog import (
     SensorWiring,
     WatchdogSettings,
 )
-from gripperd.model import Regulator
-from gripperd.protocol.encoding import ROUNDING, Range
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.protocol.modules import InputModule, Module, ModuleDialect, OutputModule
-from gripperd.units import MILLI
 
 NOBODY = 0
 """Unit and channel of a device that is alone on its line."""
@@ -226,21 +223,5 @@ def check_bench_input(inputs: InputSection | None) -> None:
             message = (
                 f"{name} on channel {sensor.channel}: the bench has it on"
                 f" channel {channel}"
-            )
-            raise ValueError(message)
-
-
-def check_driven(regulator: Regulator, module: OutputModule, chosen: Range) -> None:
-    """Refuse a valve that the range of its module cannot drive from end to end."""
-    ends = (
-        ("starts", regulator.current_low, "from", chosen.current_low),
-        ("ends", regulator.current_high, "up to", chosen.current_high),
-    )
-    for verb, current, how, limit in ends:
-        beyond = current - limit if verb == "ends" else limit - current
-        if beyond > ROUNDING:
-            message = (
-                f"valve.current_mA {verb} at {current / MILLI:g} mA,"
-                f" {module.name} drives {how} {limit / MILLI:g} mA"
             )
             raise ValueError(message)

@@ -7,12 +7,11 @@ from gripperd.doctor.finding import Finding, Result, Verdict
 from gripperd.doctor.input_check import InputCheck, as_currents
 from gripperd.doctor.output_check import (
     RIGHT_MODULE,
-    ItvOutputCheck,
     OutputCheck,
-    PhraseOutputCheck,
-    RegisterOutputCheck,
     Step,
 )
+from gripperd.doctor.register_output_check import RegisterOutputCheck
+from gripperd.doctor.text_output_check import ItvOutputCheck, PhraseOutputCheck
 from gripperd.drivers.analog import AnyBus
 from gripperd.drivers.inputs import AsciiInputs, ModbusInputs
 from gripperd.drivers.wiring import InputWiring, OutputWiring

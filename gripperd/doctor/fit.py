@@ -6,7 +6,6 @@ speaks for it beyond that are codes that another module would hardly have there.
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final
 
 from gripperd.doctor.identity import (
     AnyModule,
@@ -14,7 +13,6 @@ from gripperd.doctor.identity import (
     Match,
     matched,
     named,
-    types,
 )
 from gripperd.drivers.registers import Unit
 from gripperd.errors import LinkError, LinkLost
@@ -22,11 +20,6 @@ from gripperd.protocol.encoding import Range, Registers
 from gripperd.protocol.modbus import Read, Table
 from gripperd.protocol.modules import InputModule, OutputMap, RegisterMap
 
-ADAM_NAME: Final = (Table.HOLDING, 210, 1)
-"""40211 of Advantech modules: the type, four hexadecimal digits (ADAM-4000 manual,
-appendix G, by a public register map; not tried on a module)."""
-WAVESHARE_VERSION: Final = (Table.HOLDING, 0x8000, 1)
-"""Firmware version times 100 (Waveshare wiki, protocol tables)."""
 VERSIONS = range(100, 1000)
 """Firmware versions that are taken for one: 1.00 to 9.99."""
 OVERRANGE = 0.05
@@ -86,27 +79,24 @@ async def identify(unit: Unit, modules: Sequence[AnyModule]) -> Identity:
         The line is gone.
     """
     registers = Registry(unit)
-    name = await registers.read(*ADAM_NAME)
-    said = f"{name[0]:04X}" if name else ""
-    if bearing := [each for each in modules if said in _digits(each)]:
-        return named(said, bearing)
-    version = await registers.read(*WAVESHARE_VERSION)
-    firmware = version[0] / 100 if version and version[0] in VERSIONS else None
+    bearing = [each for each in modules if await _says_its_name(registers, each)]
+    if bearing:
+        return named(bearing[0].title.partition(",")[0], bearing)
     matches = []
     for module in modules:
         comparison = _Comparison(registers, module)
         if not await comparison.holds():
             continue
-        agreements = tuple(comparison.agreements)
-        if firmware is not None and module.name.startswith("waveshare"):
-            agreements = (*agreements, f"its firmware is {firmware:.2f}")
-        matches.append(Match(module, agreements))
+        matches.append(Match(module, tuple(comparison.agreements)))
     return matched(matches)
 
 
-def _digits(module: AnyModule) -> frozenset[str]:
-    """Types on a label as a register can say them."""
-    return frozenset(each.rstrip("+") for each in types(module))
+async def _says_its_name(registers: Registry, module: AnyModule) -> bool:
+    name = module.modbus.type_name if module.modbus else None
+    if name is None:
+        return False
+    found = await registers.read(name.registers.table, name.registers.address, 1)
+    return list(found) == [name.code]
 
 
 class _Comparison:
@@ -128,6 +118,7 @@ class _Comparison:
             and await self._required(expected)
             and await self._coded(expected)
             and await self._valued(expected)
+            and await self._versioned(expected)
         )
 
     async def _readable(self, expected: RegisterMap) -> bool:
@@ -170,6 +161,15 @@ class _Comparison:
             any(self._plausible(count, each) for each in self._ranges)
             for count in map(encoding.decode, read)
         )
+
+    async def _versioned(self, expected: RegisterMap) -> bool:
+        """Count a firmware version as an agreement; without one nothing is said."""
+        if expected.version is not None:
+            place = expected.version
+            found = await self._registers.read(place.table, place.address, 1)
+            if found and found[0] in VERSIONS:
+                self.agreements.append(f"its firmware is {found[0] / 100:.2f}")
+        return True
 
     def _plausible(self, count: float, chosen: Range) -> bool:
         """Whether a value can be one of a range; a broken loop is below any."""

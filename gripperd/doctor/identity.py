@@ -1,17 +1,13 @@
 """Which described module something is, as far as reading it can tell."""
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
 
-from gripperd.protocol.modules import InputModule, Module, OutputModule
+from gripperd.protocol.modules import InputModule, OutputModule
 
 AnyModule: TypeAlias = OutputModule | InputModule
-
-TYPE = re.compile(r"\b(?!RS-)[A-Z]+-(\d{3,4}[A-Z+]?)")
-"""What a label says behind the maker's prefix, as in ADAM-4017+ or I-7024."""
 
 
 class Certainty(StrEnum):
@@ -53,11 +49,6 @@ class Match:
 
     module: AnyModule
     agreements: tuple[str, ...]
-
-
-def types(module: Module) -> frozenset[str]:
-    """Types on the label of a module, such as 4017+; what it has follows a comma."""
-    return frozenset(TYPE.findall(module.title.partition(",")[0]))
 
 
 def named(said: str, found: Iterable[AnyModule]) -> Identity:

@@ -1,7 +1,8 @@
 """Asking a line who is there. Only reads, and never longer than was said."""
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Protocol, TypeAlias, TypeVar
@@ -15,7 +16,6 @@ from gripperd.doctor.identity import (
     Match,
     matched,
     named,
-    types,
 )
 from gripperd.drivers.address import (
     Address,
@@ -34,15 +34,16 @@ from gripperd.errors import (
     LocalEcho,
     ReplyTimeout,
 )
-from gripperd.protocol.dcon import Ask, Good, Lead
 from gripperd.protocol.engineering import from_engineering
 from gripperd.protocol.itv import Query
 from gripperd.protocol.modbus import Read, Refusal, Table
 from gripperd.protocol.modules import OutputModule
-from gripperd.protocol.phrase import CURRENT
+from gripperd.protocol.phrase import CURRENT, Phrase
 
 OPEN_WITHIN = 1.0
 """Longest wait for a line to open, beyond its own time-out. [s]"""
+ANY_NAME = "!{unit}"
+"""What goes before the name in a reply."""
 NOBODY = frozenset({Refusal.NO_PATH, Refusal.NO_RESPONSE})
 """What a gateway says of a unit that is not there."""
 
@@ -170,15 +171,36 @@ async def _over_modbus(
 async def _over_dcon(
     bus: DconBus, unit: int, modules: Sequence[AnyModule]
 ) -> Identity | None:
-    """Ask for the name with ``$AAM``, and where it has none what it puts out."""
-    try:
-        said = await bus.ask(Ask(unit, "M", Lead.SETTING, Good.ADDRESS, None))
-    except DeviceRefused:
-        return await _nameless(bus, unit, modules)
-    # The lines have P for the plus on the label.
-    label = said.strip().upper().replace("P", "+")
-    spoken = (each for each in modules if each.phrases)
-    return named(said, (each for each in spoken if label in types(each)))
+    """Ask for the name in every way described, and without one what it puts out."""
+    said = None
+    for ask in _names(modules):
+        # The first that nobody answers ends it: nobody is there.
+        question = Phrase(ask, ANY_NAME).question(unit, {}, None)
+        try:
+            said = (await bus.ask(question)).strip()
+        except DeviceRefused:
+            continue
+        if bearing := tuple(_bearing(ask, said, modules)):
+            return named(said, bearing)
+    return await _nameless(bus, unit, modules) if said is None else named(said, ())
+
+
+def _names(modules: Sequence[AnyModule]) -> Sequence[str]:
+    """Questions for a name, that of most modules first."""
+    asks = Counter(
+        phrases.type_name.ask
+        for module in modules
+        for phrases in module.phrases.values()
+        if phrases.type_name is not None
+    )
+    return [ask for ask, _ in asks.most_common()]
+
+
+def _bearing(ask: str, said: str, modules: Sequence[AnyModule]) -> Iterator[AnyModule]:
+    for module in modules:
+        for phrases in module.phrases.values():
+            if phrases.type_name == Phrase(ask, f"{ANY_NAME}{said}"):
+                yield module
 
 
 async def _nameless(bus: DconBus, unit: int, modules: Sequence[AnyModule]) -> Identity:
@@ -196,7 +218,7 @@ async def _nameless(bus: DconBus, unit: int, modules: Sequence[AnyModule]) -> Id
                 continue
             answered.append(Match(module, ()))
     found = matched(answered)
-    return replace(found, grounds=f"it has no name for $AAM; {found.grounds}")
+    return replace(found, grounds=f"it tells no name; {found.grounds}")
 
 
 async def _over_itv(

@@ -1,6 +1,7 @@
 """Valves on serial lines that speak text: DCON, ADAM ASCII and SMC regulators."""
 
 from gripperd.drivers.bus import Bus
+from gripperd.drivers.range_line import check_range
 from gripperd.drivers.watchdog import PhraseGuard
 from gripperd.drivers.wiring import OutputWiring
 from gripperd.errors import ModuleMismatch
@@ -20,13 +21,11 @@ SAFE_STEP = 0.5e-6
 class AsciiOutput:
     """A current in lines of text; the same as :class:`ModbusOutput` for the rest."""
 
-    range_verified = False
-    """No line that tells the range is confirmed."""
-
     def __init__(
         self, bus: Bus[Ask, str], wiring: OutputWiring, phrases: OutputPhrases
     ) -> None:
         self.armed = False
+        self.range_verified = False
         self._bus = bus
         self._wiring = wiring
         self._phrases = phrases
@@ -35,10 +34,13 @@ class AsciiOutput:
         self._text = ""
 
     async def attach(self) -> None:
-        """Check the safe value, and arm what the settings ask for."""
+        """Check range and safe value, and arm what the settings ask for."""
         self.armed = False
         if self._guard is not None:
             await self._guard.check()
+        self.range_verified = await check_range(
+            self._bus, self._wiring, (self._wiring.channel,), self._phrases.range_code
+        )
         await self._check_safe_value()
         if self._guard is not None:
             self.armed = await self._guard.arm()

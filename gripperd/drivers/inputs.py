@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from gripperd.drivers.bus import Bus, ModbusBus
+from gripperd.drivers.range_line import check_range
 from gripperd.drivers.registers import Unit, check_setup
 from gripperd.drivers.wiring import InputWiring, SensorWiring
 from gripperd.errors import BadReply
@@ -84,18 +85,20 @@ class ModbusInputs:
 class AsciiInputs:
     """Currents in lines of text; all channels come in one."""
 
-    range_verified = False
-    """No line that tells the range is confirmed."""
-
     def __init__(
         self, bus: Bus[Ask, str], wiring: InputWiring, phrases: InputPhrases
     ) -> None:
+        self.range_verified = False
         self._bus = bus
         self._wiring = wiring
         self._read = phrases.read
+        self._range_code = phrases.range_code
 
     async def attach(self) -> None:
-        """Nothing of it can be checked."""
+        """Check the ranges, see :meth:`ModbusInputs.attach`."""
+        self.range_verified = await check_range(
+            self._bus, self._wiring, _channels(self._wiring), self._range_code
+        )
 
     async def read(self) -> Mapping[str, Reading]:
         """Every sensor, in one request.

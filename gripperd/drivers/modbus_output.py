@@ -10,11 +10,9 @@ from gripperd.errors import ModuleMismatch
 from gripperd.protocol.encoding import Registers
 from gripperd.protocol.modbus import Write
 from gripperd.protocol.modules import OutputMap
+from gripperd.protocol.watchdog import RESET
 from gripperd.signals import Reading
 from gripperd.units import MILLI
-
-RESET = "clear it with the maker's utility, or switch the module off and on"
-"""What to do about a trip that shows in the status alone."""
 
 
 class ModbusOutput:
@@ -113,7 +111,7 @@ class ModbusOutput:
         words = await self._unit.fetch(status.registers, (channel,), status.words)
         if status.tripped(words[channel]):
             watchdog = self._map.watchdog
-            raise tripped(self._wiring, watchdog.clear if watchdog else RESET)
+            raise tripped(self._wiring, watchdog.remedy if watchdog else RESET)
         causes = status.causes(words[channel])
         return f"{self._wiring} says: {'; '.join(causes)}" if causes else ""
 

@@ -121,7 +121,7 @@ async def check_setup(
         if not set_range:
             message = (
                 f"channel {channel} of {module.name}, unit {unit.number}, has range"
-                f" code {_called(module, found)}, {_called(module, chosen.code)} is"
+                f" code {called(module, found)}, {called(module, chosen.code)} is"
                 f" wanted: set {setting}, or say `set_range: true` to have it done"
             )
             raise ModuleMismatch(message)
@@ -129,6 +129,7 @@ async def check_setup(
     return True
 
 
-def _called(module: Module, code: int) -> str:
+def called(module: Module, code: int, digits: int = 4) -> str:
+    """Code of a range, and its name where it is described."""
     names = [each.name for each in module.ranges.values() if each.code == code]
-    return f"0x{code:04X} ({names[0] if names else 'not one described'})"
+    return f"0x{code:0{digits}X} ({names[0] if names else 'not one described'})"

@@ -66,7 +66,7 @@ class RegisterGuard:
         """
         sign = self._watchdog.tripped
         if sign is not None and await self._unit.holds(sign):
-            raise tripped(self._wiring, self._watchdog.clear)
+            raise tripped(self._wiring, self._watchdog.remedy)
 
     async def arm(self) -> bool:
         """Arm it if the settings ask; tell whether it is.
@@ -129,7 +129,7 @@ class PhraseGuard:
             message = f'"{said}" is not the status of {self._wiring}'
             raise BadReply(message) from None
         if status & self._watchdog.tripped:
-            raise tripped(self._wiring, self._watchdog.clear)
+            raise tripped(self._wiring, self._watchdog.remedy)
 
     async def arm(self) -> bool:
         """Arm it if the settings ask, see :meth:`RegisterGuard.arm`."""

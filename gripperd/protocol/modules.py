@@ -24,6 +24,25 @@ class Evidence(StrEnum):
     """Neither: memory, or a table that says so itself."""
 
 
+class Beyond(StrEnum):
+    """What an output module does with a current outside its range."""
+
+    REFUSED = "refused"
+    """It says no, and its output stays."""
+    CLAMPED = "clamped"
+    """It goes to the end of the range without a word."""
+    CLAMPED_AND_TOLD = "clamped_and_told"
+    """It goes to the end of the range, and says so."""
+
+
+class Condition(StrEnum):
+    """What can be wrong with a 4-20 mA loop."""
+
+    OPEN = "open"
+    UNDER = "under"
+    OVER = "over"
+
+
 class ModuleDialect(StrEnum):
     """What a module speaks."""
 
@@ -47,6 +66,8 @@ class Status:
     """Meaning of a whole value; it is looked up before the bits."""
     fail_safe: int | None = None
     """Bit that says that the communication watchdog has tripped."""
+    signs: Mapping[Condition, int] = field(default_factory=dict)
+    """What the whole status is in a condition."""
 
     def causes(self, words: Sequence[int]) -> tuple[str, ...]:
         """Everything that is wrong with a channel, for a person."""
@@ -73,6 +94,26 @@ class Required:
     meaning: str
 
 
+@dataclass(frozen=True, slots=True)
+class NameRegister:
+    """A register in which a module says its type."""
+
+    registers: Registers
+    code: int
+
+
+@dataclass(frozen=True, slots=True)
+class RangePhrase:
+    """Asks for the range of a channel.
+
+    The answer is two hexadecimal digits of range code, and as many more as `rest`.
+    """
+
+    phrase: Phrase
+    rest: str = ""
+    """What follows the code on a module as it leaves the factory."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegisterMap:
     """One kind of channel, in registers."""
@@ -82,6 +123,9 @@ class RegisterMap:
     range_code: Registers | None = None
     required: Required | None = None
     status: Status | None = None
+    type_name: NameRegister | None = None
+    version: Registers | None = None
+    """Where the firmware version stands, times 100."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +138,7 @@ class OutputMap(RegisterMap):
     safe: Registers | None = None
     """Current on time-out of the watchdog, encoded like the set-point."""
     watchdog: RegisterWatchdog | None = None
+    beyond_range: Beyond = Beyond.REFUSED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,6 +151,10 @@ class OutputPhrases:
     safe: Phrase | None = None
     """Asks for the current on time-out; lines cannot set it without driving it."""
     watchdog: PhraseWatchdog | None = None
+    beyond_range: Beyond = Beyond.CLAMPED_AND_TOLD
+    range_code: RangePhrase | None = None
+    type_name: Phrase | None = None
+    """Asks for the type; the whole reply is what this module says."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,6 +162,8 @@ class InputPhrases:
     """Inputs in lines of text; all channels come in one reply, in mA."""
 
     read: Phrase
+    range_code: RangePhrase | None = None
+    type_name: Phrase | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,6 +205,8 @@ class OutputModule(Module):
 
     power_on: str
     """What its outputs do after power has come, for a person."""
+    power_on_current: float | None = None
+    """The same as a number, where it is known. [A]"""
     modbus: OutputMap | None = None
     phrases: Mapping[ModuleDialect, OutputPhrases] = field(default_factory=dict)
     itv: bool = False

@@ -28,6 +28,14 @@ class Phrase:
     reply: str | None = None
     """Begins with ``>`` or ``!{unit}``; None where no module answers."""
 
+    def __str__(self) -> str:
+        """As manuals have it: AA is the address.
+
+        >>> str(Phrase("~{unit}1", "!{unit}"))
+        '~AA1'
+        """
+        return _fill(self.ask, {"unit": "AA", "channel": "N"})
+
     @property
     def places(self) -> frozenset[str]:
         """Everything that is to be filled in."""

@@ -5,7 +5,7 @@ from math import isfinite
 from pathlib import Path
 
 from gripperd.config import Complaint, GripperSettings, ModelFile, Settings
-from gripperd.config.wiring import check_driven
+from gripperd.config.range_check import check_driven
 from gripperd.errors import ConfigError, DomainError
 from gripperd.model import Chain
 from gripperd.store.versions import ACTIVE, Versions

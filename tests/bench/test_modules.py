@@ -1,16 +1,20 @@
 """Modules as registers, asked without a wire."""
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
 
+from gripperd.bench.channels import Inputs
 from gripperd.bench.modbus_speaker import RtuSpeaker, TcpSpeaker
 from gripperd.bench.modules import Fitted, Modules
+from gripperd.bench.register_device import RegisterDevice
 from gripperd.bench.rig import Rig
 from gripperd.bench.text_speaker import DconSpeaker, ItvSpeaker
 from gripperd.errors import DeviceRefused, InputError
 from gripperd.protocol.mbap import ModbusTcp
 from gripperd.protocol.modbus import Read, Refusal, Request, Table, Write, WriteCoil
+from gripperd.protocol.modules import InputModule, OutputModule
 
 from .line import DESCRIBED, fitted
 
@@ -138,6 +142,55 @@ def test_a_set_point_stands_where_and_as_the_manual_says(
     assert ask(modules, Read(1, HOLDING, address, len(words))) == list(words)
     (outputs,) = modules.outputs
     assert outputs.currents()[1] == pytest.approx(10.7e-3, abs=2e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "address", "word"),
+    [
+        ("waveshare_ao_8ch", 0x8000, 100),
+        ("waveshare_ai_8ch", 0x8000, 100),
+        ("adam_4024", 210, 0x4024),
+        ("adam_4017_plus", 210, 0x4017),
+    ],
+)
+def test_a_module_says_what_it_is(rig: Rig, name: str, address: int, word: int) -> None:
+    modules = Modules(rig, *fitted(name))
+    assert ask(modules, Read(1, HOLDING, address)) == [word]
+    assert refusal(modules, Write(1, address, (1,))) == Refusal.ILLEGAL_ADDRESS
+
+
+def test_a_module_that_clamps_does_so_without_a_word(rig: Rig) -> None:
+    modules = Modules(rig, *fitted("brainboxes_ed_560_engineering"))
+    assert ask(modules, Write(1, 0, (30_000,))) == [30_000]
+    assert ask(modules, Read(1, HOLDING, 0)) == [20_000]
+    assert rig.plant.current == pytest.approx(0.020)
+
+
+def test_an_output_starts_with_the_current_that_is_described(rig: Rig) -> None:
+    module = DESCRIBED["wago_750_554"]
+    assert isinstance(module, OutputModule)
+    Modules(rig, (replace(module, power_on_current=0.012), 1))
+    assert rig.plant.current == pytest.approx(0.012)
+
+
+@pytest.mark.parametrize(
+    ("name", "current", "address", "table", "words"),
+    [
+        ("adam_6217", 2e-3, 100, HOLDING, [1 << 3, 0]),
+        ("adam_6217", 22e-3, 100, HOLDING, [1 << 1, 0]),
+        ("moxa_e1240", 2e-3, 0x3C, INPUT, [1]),
+        ("wago_750_455", 2e-3, 0, INPUT, [0x0003]),
+        ("icpdas_m_7017", 22e-3, 128, Table.DISCRETE, [1]),
+    ],
+)
+def test_a_loop_out_of_range_shows_in_the_status(
+    rig: Rig, name: str, current: float, address: int, table: Table, words: list[int]
+) -> None:
+    module = DESCRIBED[name]
+    assert isinstance(module, InputModule)
+    inputs = Inputs(module, lambda: [current])
+    device = RegisterDevice(inputs)
+    assert device.answer(Read(1, table, address, len(words))) == words
 
 
 def test_half_a_float_is_refused(rig: Rig) -> None:

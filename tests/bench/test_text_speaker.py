@@ -39,6 +39,34 @@ def test_over_the_range_it_says_so_and_goes_to_the_end(rig: Rig) -> None:
     assert rig.plant.current == pytest.approx(0.020)
 
 
+def test_a_brainboxes_goes_to_the_end_of_its_range_without_a_word(rig: Rig) -> None:
+    lines = [(b"#010+21.000\r", b">\r"), (b"$0160\r", b"!01+20.000\r")]
+    exchange(rig, "brainboxes_ed_560", lines)
+    assert rig.plant.current == pytest.approx(0.020)
+
+
+# As the manuals print them: 9600 Bd and 4-20 mA.
+@pytest.mark.parametrize(
+    ("name", "lines"),
+    [
+        ("icpdas_i_7024", [(b"$012\r", b"!01310600\r"), (b"$01M\r", b"!017024\r")]),
+        (
+            "brainboxes_ed_560",
+            [(b"$0193\r", b"!013100\r"), (b"$01M0\r", b"!01ED-560\r")],
+        ),
+        (
+            "adam_4017_plus",
+            [(b"$018C5\r", b"!01C5R07\r"), (b"$01M\r", b"!014017P\r")],
+        ),
+        ("adam_4024", [(b"$01M\r", b"!014024\r")]),
+    ],
+)
+def test_a_module_tells_its_range_and_its_name(
+    rig: Rig, name: str, lines: list[tuple[bytes, bytes]]
+) -> None:
+    exchange(rig, name, lines)
+
+
 @pytest.mark.parametrize(
     "line", [b"#010+1.7\r", b"#014+10.700\r", b"$01Z\r", b"$01\r", b"~0131ZZ\r"]
 )

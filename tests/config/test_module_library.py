@@ -108,6 +108,21 @@ def test_a_description_is_read_as_it_is_written(write: Write) -> None:
             "ranges.0-20mA: counts are missing: integer registers do not count in mA",
         ),
         (", code: 2", "", "ranges.0-20mA: code is missing: there is a range_code to"),
+        (
+            "bits: {3: no current}",
+            "bits: {3: no current}, signs: {open: 4}",
+            "modbus.status.signs.open: 4 stands neither in bits nor in codes",
+        ),
+        (
+            "type: s16}",
+            "type: s16}\n  beyond_range: clampd",
+            'modbus.beyond_range: "clampd" is unknown; did you mean "clamped"?',
+        ),
+        (
+            "power_on: not documented",
+            "power_on: x\npower_on_mA: 25",
+            "power_on_mA: 25 mA",
+        ),
         ("{3: no", "{32: no", 'modbus.status.bits.32: "32" is above 31'),
         (
             "registers: [10700]",
@@ -161,6 +176,11 @@ vectors:
         ("6{channel}", "6{n}", "has a place that is not one of {channel}, {time}"),
         ("6{channel}", "6{channel", "has a place that is not one of"),
         ('010+10.700"', '020+10.700"', 'is "#010+10.700" by the rest of the file'),
+        (
+            'reply: ">"}',
+            'reply: ">"}\n  range_code: {ask: "${unit}2", reply: "!{unit}{value}"}',
+            "ranges.0-20mA: code is missing: there is a range_code to compare it with",
+        ),
         ("dcon:", "dcn:", 'is not a key here; did you mean "dcon"?'),
     ],
 )

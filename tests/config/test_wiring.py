@@ -153,6 +153,16 @@ UNIT = "unit: 1, channel: 0"
             "output: 3 mA is outside 4 to 20 mA, the range of adam_6224",
         ),
         (
+            DCON,
+            f"{{module: icpdas_i_7024, {UNIT}, set_range: true}}",
+            "output: set_range: the range of icpdas_i_7024 cannot be set over dcon",
+        ),
+        (
+            TCP,
+            f"{{module: waveshare_ao_8ch, {UNIT}, set_range: true}}",
+            "output: set_range: the range of waveshare_ao_8ch cannot be set over",
+        ),
+        (
             f"{{{LINE}modbus}}",
             f"{{module: adam_4024, {UNIT}}}",
             'bus.protocol: "modbus" is unknown; there are: dcon, itv, rtu',

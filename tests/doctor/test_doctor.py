@@ -212,6 +212,7 @@ async def test_a_dcon_module_without_a_name_is_not_guessed_at(tmp_path: Path) ->
     async with plugged(tmp_path / "tty") as far:
         answers = {
             b"$01M\r": b"?01\r",
+            b"$01M0\r": b"?01\r",
             b"$016C0\r": b"?01\r",
             b"$0160\r": b"!01+04.000\r",
         }

@@ -4,7 +4,7 @@ import pytest
 
 from gripperd.config.module_library import ModuleLibrary
 from gripperd.doctor.fit import identify
-from gripperd.doctor.identity import AnyModule, Certainty, types
+from gripperd.doctor.identity import Certainty
 from gripperd.drivers.registers import Unit
 from gripperd.protocol.modbus import Table
 from tests.drivers.device import Device, holding, on_the_wire, placed
@@ -94,11 +94,3 @@ async def test_a_value_that_no_range_has_speaks_against_a_description() -> None:
     # 30 mA in µA: no output of a Waveshare module.
     certainty, _ = await identified(holding(0, 30_000, *[4000] * 7))
     assert certainty == Certainty.UNKNOWN
-
-
-def test_the_label_of_every_module_with_a_name_is_read() -> None:
-    by_name: dict[str, AnyModule] = {module.name: module for module in MODULES}
-    assert types(by_name["adam_4017_plus"]) == {"4017+"}
-    assert types(by_name["icpdas_i_7024"]) == {"7024"}
-    assert types(by_name["brainboxes_ed_560"]) == {"560"}
-    assert types(by_name["smc_itv_rc"]) == frozenset()

@@ -4,7 +4,8 @@ import pytest
 
 from gripperd.config.module_library import ModuleLibrary
 from gripperd.doctor.finding import Result, Verdict
-from gripperd.doctor.output_check import PhraseOutputCheck, RegisterOutputCheck
+from gripperd.doctor.register_output_check import RegisterOutputCheck
+from gripperd.doctor.text_output_check import PhraseOutputCheck
 from gripperd.drivers.wiring import OutputWiring, WatchdogSettings
 from gripperd.protocol.modbus import Table
 from gripperd.protocol.modules import ModuleDialect
@@ -73,7 +74,7 @@ async def test_a_watchdog_is_armed_tripped_or_not_armed() -> None:
     assert (armed.verdict, armed.said) == (Verdict.OK, "armed, 2 s")
     tripped = (await results("wago_750_554", WAGO | holding(0x1006, 2)))["watchdog"]
     assert tripped.verdict is Verdict.FAILED
-    assert "write 1 to holding register 0x1007" in tripped.remedy
+    assert "write 1 to holding register 4103 (0x1007)" in tripped.remedy
     idle = (await results("wago_750_554", WAGO | holding(0x1006, 0)))["watchdog"]
     assert idle.verdict is Verdict.WARNING
     assert "keeps the last current" in idle.said
@@ -94,7 +95,12 @@ async def test_a_safe_value_that_differs_is_a_warning() -> None:
 
 
 async def test_a_module_that_speaks_lines_is_asked_and_not_told() -> None:
-    answers = {"$0160": "!01+10.700", "~010": "!0104", "~0140": "!01+04.000"}
+    answers = {
+        "$0160": "!01+10.700",
+        "$012": "!01300600",
+        "~010": "!0104",
+        "~0140": "!01+04.000",
+    }
     device = TextDevice(answers.get)
     module = ModuleLibrary().output("icpdas_i_7024")
     wiring = OutputWiring(module=module, unit=1, channel=0, dialect=ModuleDialect.DCON)
@@ -102,6 +108,8 @@ async def test_a_module_that_speaks_lines_is_asked_and_not_told() -> None:
         check = PhraseOutputCheck(bus, wiring, module.phrases[ModuleDialect.DCON])
         found = {name: await step() for name, step in check.steps.items()}
     assert found["set-point read-back"].said == "10.700 mA"
+    assert found["output range"].verdict is Verdict.FAILED
+    assert "0x30 (0-20mA), 0x31 (4-20mA) is wanted" in found["output range"].said
     assert found["watchdog"].verdict is Verdict.FAILED
     assert "~AA1" in found["watchdog"].remedy
     assert found["safe value"].said == "4.000 mA"

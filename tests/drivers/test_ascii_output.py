@@ -12,7 +12,13 @@ from gripperd.drivers.analog import (
     WatchdogSettings,
 )
 from gripperd.drivers.facts import WatchdogState
-from gripperd.errors import BadReply, InputError, ModuleMismatch, WatchdogTripped
+from gripperd.errors import (
+    BadReply,
+    InputError,
+    ModuleMismatch,
+    ReplyTimeout,
+    WatchdogTripped,
+)
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.protocol.modules import ModuleDialect
 from gripperd.signals import Quality
@@ -42,6 +48,7 @@ class I7024:
         self.output, self.safe = "+04.000", "+04.000"
         self.watchdog = "000"
         self.tripped = False
+        self.range = "31"
 
     def answer(self, line: str) -> str | None:
         match line[:4], line[4:]:
@@ -49,6 +56,9 @@ class I7024:
                 return self.drive(value)
             case "$016", "0":
                 return f"!01{self.output}"
+            case "$012", "":
+                # 9600 Bd, engineering format, no checksum.
+                return f"!01{self.range}0600"
             case "~010", "":
                 return "!0104" if self.tripped else "!0100"
             case "~012", "":
@@ -152,6 +162,102 @@ async def test_a_write_that_the_watchdog_swallows_is_an_error() -> None:
     assert module.output == "+10.700"
 
 
+async def test_the_range_is_asked_for_before_anything_is_driven() -> None:
+    module = I7024()
+    device = TextDevice(module.answer)
+    async with dcon_line(device) as bus:
+        rig = AnalogRig(bus, I_7024, None)
+        await rig.read(0.0)
+        assert rig.facts.output.range_verified
+        module.range = "30"
+        other = AnalogRig(bus, I_7024, None)
+        with pytest.raises(ModuleMismatch, match=r"code 0x30 \(0-20mA\), 0x31 \(4-"):
+            await other.read(0.0)
+        with pytest.raises(ModuleMismatch):
+            await other.write(0.0107)
+        assert not other.facts.output.range_verified
+        await AnalogRig(bus, replace(I_7024, range_name="0-20mA"), None).read(0.0)
+    assert not [line for line in device.lines if line.startswith("#")]
+
+
+async def test_a_module_that_does_not_know_its_range_is_driven_unverified() -> None:
+    module = I7024()
+
+    def older(line: str) -> str | None:
+        return "?01" if line == "$012" else module.answer(line)
+
+    async with dcon_line(TextDevice(older)) as bus:
+        rig = AnalogRig(bus, I_7024, None)
+        await rig.read(0.0)
+        assert not rig.facts.output.range_verified
+        await rig.write(0.0107)
+    assert module.output == "+10.700"
+
+
+async def test_a_range_that_is_none_is_not_believed() -> None:
+    module = I7024()
+    module.range = "+4"
+    async with dcon_line(TextDevice(module.answer)) as bus:
+        with pytest.raises(BadReply, match="does not begin with a range code"):
+            await AnalogRig(bus, I_7024, None).read(0.0)
+
+
+async def test_a_brainboxes_tells_the_range_of_each_channel() -> None:
+    # As printed on p. 73 of its manual: 0-10 V on channel 0, 4-20 mA on channel 3.
+    replies = {"$0190": "!013200", "$0193": "!013100", "$0163": "!01+04.000"}
+    device = TextDevice(lambda line: {"~010": "!0100", **replies}.get(line))
+    module = MODULES.output("brainboxes_ed_560")
+    wiring = replace(I_7024, module=module, channel=3)
+    async with dcon_line(device) as bus:
+        rig = AnalogRig(bus, wiring, None)
+        await rig.read(0.0)
+        assert rig.facts.output.range_verified
+        with pytest.raises(ModuleMismatch, match="has range code 0x32"):
+            await AnalogRig(bus, replace(wiring, channel=0), None).read(0.0)
+
+
+async def test_sensors_of_another_range_are_bad_and_the_valve_is_driven() -> None:
+    module = I7024()
+    # ±20 mA on channel 2, 4-20 mA on channel 0.
+    replies = {"$028C0": "!02C0R07", "$028C2": "!02C2R0D"}
+    device = TextDevice(lambda line: replies.get(line) or module.answer(line))
+    gauge = LoopScale(value_low=0.0, value_high=600e3)
+    inputs = InputWiring(
+        module=MODULES.input("adam_4017_plus"),
+        unit=2,
+        sensors={
+            "pressure": SensorWiring(channel=0, scale=gauge),
+            "grip": SensorWiring(channel=2, scale=gauge),
+        },
+        dialect=ModuleDialect.ADAM_ASCII,
+    )
+    async with dcon_line(device) as bus:
+        rig = AnalogRig(bus, I_7024, inputs)
+        measured = await rig.read(0.0)
+        await rig.write(0.0107)
+    assert measured.pressure.quality is Quality.BAD
+    assert "channel 2 of adam_4017_plus, unit 2, has range code 0x0D" in (
+        measured.grip.cause
+    )
+    assert module.output == "+10.700"
+    assert "#02" not in device.lines
+
+
+async def test_facts_that_were_confirmed_are_doubted_once_the_link_fails() -> None:
+    module = I7024()
+    device = TextDevice(module.answer)
+    async with dcon_line(device) as bus:
+        rig = AnalogRig(bus, replace(I_7024, watchdog=KEPT), None)
+        await rig.read(0.0)
+        assert rig.facts.output.when_silent == "every output goes to its safe value"
+        device.answer = lambda line: None
+        with pytest.raises(ReplyTimeout):
+            await rig.read(0.1)
+        facts = rig.facts.output
+    assert (facts.watchdog, facts.range_verified) == (WatchdogState.ARMING, False)
+    assert "keeps the last current" in facts.when_silent
+
+
 async def test_an_adam_grants_a_current_by_repeating_it() -> None:
     replies = {"$016C0": "!01+04.000", "#01C0+10.700": "!01C0+10.700"}
     device = TextDevice(lambda line: replies.get(line))
@@ -178,6 +284,7 @@ async def test_an_adam_watchdog_counts_in_four_decimal_digits() -> None:
 async def test_all_sensors_come_in_one_line() -> None:
     loops = "+12.000+00.000+20.000+99?999" + 4 * "+00.000"
     replies = {"$0160": "!01+04.000", "~010": "!0100", "#02": f">{loops}"}
+    replies |= {"$012": "!01310600"} | {f"$028C{n}": f"!02C{n}R07" for n in (0, 1, 3)}
     device = TextDevice(lambda line: replies.get(line))
     gauge = LoopScale(value_low=0.0, value_high=600e3)
     names = {"pressure": 0, "opening": 1, "grip": 3}

@@ -239,7 +239,7 @@ async def test_a_trip_is_noticed_within_a_quarter_of_the_time_out() -> None:
         device.registers |= holding(0x1006, 2)
         await analog.read(0.4)
         before = len(device.writes)
-        with pytest.raises(WatchdogTripped, match="write 1 to holding register 0x1007"):
+        with pytest.raises(WatchdogTripped, match="write 1 to holding register 4103"):
             await analog.read(0.5)
         # Neither the watchdog nor the output is touched until a person has cleared it.
         with pytest.raises(WatchdogTripped):
