@@ -1,5 +1,6 @@
 """What a schema cannot see: whether a description agrees with itself."""
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
@@ -7,10 +8,10 @@ from gripperd.config.complaint import Complaint, did_you_mean
 from gripperd.config.document import Document
 from gripperd.config.module_parts import VectorSection
 from gripperd.config.wording import shown
-from gripperd.protocol.encoding import Range, ValueType
+from gripperd.protocol.encoding import Encoding, Range, ValueType
 from gripperd.protocol.engineering import engineering
 from gripperd.protocol.itv import Set
-from gripperd.protocol.modules import InputModule, OutputModule
+from gripperd.protocol.modules import InputModule, OutputModule, OutputPhrases
 from gripperd.units import MILLI
 
 AnyModule: TypeAlias = OutputModule | InputModule
@@ -22,7 +23,9 @@ def contradictions(
     """Everything in a description that cannot be meant."""
     yield from _speechless(module, document)
     yield from _uncounted(module, document)
+    yield from _overflowing(module, document)
     yield from _meaningless(module, document)
+    yield from _untimed(module, document)
     yield from _contradicted(module, vectors, document)
 
 
@@ -50,9 +53,42 @@ def _asks_for_codes(module: AnyModule) -> bool:
     return any((module.modbus and module.modbus.range_code, *spoken))
 
 
+def _overflowing(module: AnyModule, document: Document) -> Iterator[Complaint]:
+    """Counts that would become others in a register."""
+    encoding = module.modbus.encoding if module.modbus else None
+    for name, each in module.ranges.items():
+        for count in (each.count_low, each.count_high) if encoding else ():
+            if encoding and abs(_there_and_back(encoding, count) - count) > (
+                encoding.resolution
+            ):
+                detail = f"counts: {count:g} does not fit {encoding.type}"
+                yield document.complaint(("ranges", name), detail)
+
+
+def _there_and_back(encoding: Encoding, count: float) -> float:
+    try:
+        return encoding.decode(encoding.encode(count))
+    except OverflowError:
+        return math.inf
+
+
+def _untimed(module: AnyModule, document: Document) -> Iterator[Complaint]:
+    """Time-outs with more digits than a line has."""
+    for dialect, phrases in module.phrases.items():
+        watchdog = phrases.watchdog if isinstance(phrases, OutputPhrases) else None
+        if watchdog and len(watchdog.time_text(watchdog.longest)) > watchdog.digits:
+            detail = f"{watchdog.longest:g} s does not fit {watchdog.digits} digits"
+            yield document.complaint((dialect, "watchdog", "longest_s"), detail)
+
+
 def _meaningless(module: AnyModule, document: Document) -> Iterator[Complaint]:
-    """Signs that nobody would be told of."""
+    """Signs that nobody would be told of, and bits that are never read."""
     status = module.modbus.status if module.modbus else None
+    known = [*status.bits, *filter(None, [status.fail_safe])] if status else []
+    for bit in known:
+        if status and bit >= 16 * status.words:
+            detail = f"bit {bit} is beyond the {16 * status.words} bits that are read"
+            yield document.complaint(("modbus", "status"), detail)
     for condition, sign in (status.signs if status else {}).items():
         if status and not status.causes((sign & 0xFFFF, sign >> 16)):
             detail = f"{sign} stands neither in bits nor in codes"

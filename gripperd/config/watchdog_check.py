@@ -7,6 +7,9 @@ from gripperd.protocol.modules import ModuleDialect
 from gripperd.protocol.watchdog import Watchdog
 from gripperd.units import MILLI
 
+ROUNDING = 1e-6
+"""So close to a whole number of steps is one: 0.3 s is 3 of 0.1 s. [-]"""
+
 
 def check_watchdog(wiring: OutputWiring) -> None:
     """Refuse a time-out or a safe value that the module cannot have.
@@ -56,6 +59,13 @@ def _check_timeout(
         message = (
             f"watchdog.timeout_s: {timeout:g} s is outside {watchdog.step:g} to"
             f" {watchdog.longest:g} s, what {name} takes"
+        )
+        raise ValueError(message)
+    counted = watchdog.steps(timeout) * watchdog.step
+    if abs(counted - timeout) > ROUNDING * timeout:
+        message = (
+            f"watchdog.timeout_s: {timeout:g} s is no whole number of steps of"
+            f" {watchdog.step:g} s, in which {name} counts; {counted:g} s is"
         )
         raise ValueError(message)
 

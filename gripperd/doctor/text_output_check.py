@@ -58,8 +58,12 @@ class PhraseOutputCheck(OutputCheck):
         asked = self.wiring.watchdog.timeout if self.wiring.watchdog else None
         if asked is None or watchdog.armed is None:
             return self.armed(armed=False)
+        filled = {**self._filled, "time": watchdog.time_text(asked)}
+        answer = await self._bus.ask(
+            watchdog.armed.question(self.wiring.unit, filled, 0)
+        )
         try:
-            await self._ask(watchdog.armed, 0, time=watchdog.time_text(asked))
+            watchdog.armed.value(answer, filled)
         except BadReply:
             return self.armed(armed=False)
         return self.armed(armed=True)
@@ -75,10 +79,9 @@ class PhraseOutputCheck(OutputCheck):
         """The current that is set. [A]."""
         return from_engineering(await self._ask(self._phrases.read_back, CURRENT))
 
-    async def _ask(self, phrase: Phrase, length: int, **more: str) -> str:
-        filled = {**self._filled, **more}
-        question = phrase.question(self.wiring.unit, filled, length)
-        return phrase.value(await self._bus.ask(question), filled)
+    async def _ask(self, phrase: Phrase, length: int) -> str:
+        question = phrase.question(self.wiring.unit, self._filled, length)
+        return phrase.value(await self._bus.ask(question), self._filled)
 
 
 class ItvOutputCheck(OutputCheck):

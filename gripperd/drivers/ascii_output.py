@@ -49,7 +49,7 @@ class AsciiOutput:
         """Current that the module says it gives. [A]."""
         if self._guard is not None:
             await self._guard.keep(now)
-        return Reading(await self._current(self._phrases.read_back))
+        return self._wiring.reading(await self._current(self._phrases.read_back))
 
     async def write(self, current: float, *, urgent: bool) -> None:
         """Set the current. [A]."""

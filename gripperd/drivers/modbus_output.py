@@ -1,7 +1,5 @@
 """The channel of a Modbus module that drives the valve."""
 
-import math
-
 from gripperd.drivers.bus import ModbusBus
 from gripperd.drivers.registers import Unit, check_setup
 from gripperd.drivers.watchdog import RegisterGuard, tripped
@@ -71,10 +69,7 @@ class ModbusOutput:
         trouble = await self._trouble()
         if trouble:
             return Reading.bad(trouble)
-        current = await self._current(self._map.read_back)
-        if not math.isfinite(current):
-            return Reading.bad(f"{self._wiring} reads back as no number")
-        return Reading(current)
+        return self._wiring.reading(await self._current(self._map.read_back))
 
     async def write(self, current: float, *, urgent: bool) -> None:
         """Set the current; a float goes out in one request. [A].

@@ -145,7 +145,8 @@ class SerialLine(Line[Q]):
         # Else closing waits until a port that takes nothing has sent them.
         with suppress(OSError, termios.error):
             self._port.reset_output_buffer()
-        self._port.close()
+        with suppress(OSError):
+            self._port.close()
         self.lost(why)
 
     def _read(self) -> None:

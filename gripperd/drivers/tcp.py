@@ -92,12 +92,12 @@ class TcpConnector(Generic[Q]):
         except TimeoutError as error:
             message = f"it does not answer within {CONNECT_WITHIN * 1e3:g} ms"
             raise LinkLost(message) from error
-        except (OSError, UnicodeError) as error:
+        except (OSError, ValueError) as error:
             raise LinkLost(_reason(error)) from error
         return line
 
 
-def _reason(error: OSError | UnicodeError) -> str:
+def _reason(error: OSError | ValueError) -> str:
     """What went wrong, without the address that the caller names."""
     number = getattr(error, "errno", None)
     return os.strerror(number).lower() if number and number > 0 else str(error)

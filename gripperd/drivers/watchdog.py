@@ -136,9 +136,11 @@ class PhraseGuard:
         if self._timeout is None:
             return False
         await self._ask(self._watchdog.arm)
-        if self._watchdog.armed is not None:
+        armed = self._watchdog.armed
+        if armed is not None:
+            answer = await self._answer(armed, 0)
             try:
-                await self._ask(self._watchdog.armed)
+                armed.value(answer, self._filled)
             except BadReply as error:
                 message = _not_armed(self._wiring.module, str(error))
                 raise ModuleMismatch(message) from error
@@ -153,8 +155,11 @@ class PhraseGuard:
         await self.check()
 
     async def _ask(self, phrase: Phrase, length: int = 0) -> str:
+        return phrase.value(await self._answer(phrase, length), self._filled)
+
+    async def _answer(self, phrase: Phrase, length: int) -> str:
         question = phrase.question(self._wiring.unit, self._filled, length)
-        return phrase.value(await self._bus.ask(question), self._filled)
+        return await self._bus.ask(question)
 
 
 def _timeout(wiring: OutputWiring) -> float | None:

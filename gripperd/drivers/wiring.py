@@ -6,6 +6,11 @@ from dataclasses import dataclass
 from gripperd.protocol.encoding import Range
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.protocol.modules import InputModule, ModuleDialect, OutputModule
+from gripperd.signals import Reading
+from gripperd.units import MILLI
+
+OVERRANGE = 0.05
+"""What a measured read-back may lie beyond its range, relative to the span. [-]"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +43,19 @@ class OutputWiring:
     def range(self) -> Range:
         """Range of the channel."""
         return self.module.range(self.range_name)
+
+    def reading(self, current: float) -> Reading:
+        """A current that was read back, if the channel can give it. [A].
+
+        A channel that is off reads as 0, also where its range begins at 4 mA.
+        """
+        chosen = self.range
+        margin = OVERRANGE * (chosen.current_high - chosen.current_low)
+        low = min(chosen.current_low, 0.0) - margin
+        if low <= current <= chosen.current_high + margin:
+            return Reading(current)
+        said = f"{self} reads back as {current / MILLI:g} mA, which it cannot give"
+        return Reading.bad(said)
 
     def __str__(self) -> str:
         """As a person would say it."""

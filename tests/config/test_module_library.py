@@ -109,6 +109,21 @@ def test_a_description_is_read_as_it_is_written(write: Write) -> None:
         ),
         (", code: 2", "", "ranges.0-20mA: code is missing: there is a range_code to"),
         (
+            "counts: [0, 20000]",
+            "counts: [0, 40000]",
+            "ranges.0-20mA: counts: 40000 does not fit s16",
+        ),
+        (
+            "{3: no current}",
+            "{19: no current}",
+            "modbus.status: bit 19 is beyond the 16 bits that are read",
+        ),
+        (
+            "bits: {3: no current}}",
+            "bits: {3: no current}, fail_safe_bit: 18}",
+            "modbus.status: bit 18 is beyond the 16 bits that are read",
+        ),
+        (
             "bits: {3: no current}",
             "bits: {3: no current}, signs: {open: 4}",
             "modbus.status.signs.open: 4 stands neither in bits nor in codes",
@@ -191,6 +206,19 @@ def test_bad_lines_of_text_are_refused(
     assert DCON.count(good) == 1
     said = refusal(load_module, write("korenix.yaml", DCON.replace(good, bad)))
     assert any(complaint in line for line in said), said
+
+
+def test_a_time_out_must_fit_the_digits_of_its_line(
+    write: Write, refusal: Refusal
+) -> None:
+    watchdog = """\
+  watchdog:
+    {step_s: 0.1, longest_s: 25.6, acts: x, arm: {ask: "~{unit}31{time}", reply: ">"}}
+vectors:"""
+    said = refusal(
+        load_module, write("korenix.yaml", DCON.replace("vectors:", watchdog))
+    )
+    assert any("25.6 s does not fit 2 digits" in line for line in said), said
 
 
 def test_a_description_must_speak_something(write: Write, refusal: Refusal) -> None:

@@ -154,6 +154,12 @@ UNIT = "unit: 1, channel: 0"
         ),
         (
             DCON,
+            f"{{module: icpdas_i_7024, {UNIT}, watchdog: {{timeout_s: 0.24}}}}",
+            "output: watchdog.timeout_s: 0.24 s is no whole number of steps of 0.1 s,"
+            " in which icpdas_i_7024 counts; 0.2 s is",
+        ),
+        (
+            DCON,
             f"{{module: icpdas_i_7024, {UNIT}, set_range: true}}",
             "output: set_range: the range of icpdas_i_7024 cannot be set over dcon",
         ),

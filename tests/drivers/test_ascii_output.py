@@ -120,6 +120,27 @@ async def test_a_host_watchdog_that_does_not_take_its_time_is_an_error() -> None
             await rig.read(0.0)
 
 
+async def test_a_damaged_line_is_not_taken_for_a_watchdog_that_is_not_armed() -> None:
+    module = I7024()
+
+    def damaged(line: str) -> str | None:
+        return "!02114" if line == "~012" else module.answer(line)
+
+    async with dcon_line(TextDevice(damaged)) as bus:
+        rig = AnalogRig(bus, replace(I_7024, watchdog=KEPT), None)
+        with pytest.raises(BadReply, match="it does not begin with !01"):
+            await rig.read(0.0)
+
+
+async def test_a_read_back_that_no_output_can_give_is_not_believed() -> None:
+    module = I7024()
+    module.output = "+41.880"
+    async with dcon_line(TextDevice(module.answer)) as bus:
+        sample = await AnalogRig(bus, I_7024, None).read(0.0)
+    assert sample.current.quality is Quality.BAD
+    assert "reads back as 41.88 mA, which it cannot give" in sample.current.cause
+
+
 async def test_another_safe_value_is_refused_and_not_driven() -> None:
     module = I7024()
     module.safe = "+12.000"

@@ -152,6 +152,23 @@ async def test_an_open_loop_is_a_bad_current_with_its_cause() -> None:
     assert "no output current, the loop is open" in second.current.cause
 
 
+@pytest.mark.parametrize("count", [65_535, 4500])
+async def test_a_read_back_that_no_output_can_give_is_not_believed(count: int) -> None:
+    # 4095 counts are 20 mA; 65535 would be 260 mA.
+    device = adam_6224()
+    device.registers |= holding(0, count)
+    async with on_the_wire(device) as bus:
+        sample = await rig(bus, wired("adam_6224", 0)).read(0.0)
+    assert (sample.current.value, sample.current.quality) == (None, Quality.BAD)
+    assert "which it cannot give" in sample.current.cause
+
+
+async def test_a_read_back_that_is_no_number_is_not_believed() -> None:
+    async with on_the_wire(Device(holding(0, 0x7FC0, 0))) as bus:
+        sample = await rig(bus, wired("moxa_e1241", 0)).read(0.0)
+    assert (sample.current.value, sample.current.quality) == (None, Quality.BAD)
+
+
 async def test_an_output_at_its_safe_value_is_never_driven_again_by_itself() -> None:
     device = adam_6224()
     async with on_the_wire(device) as bus:

@@ -16,7 +16,6 @@ def test_a_time_out_is_written_in_the_digits_of_its_module(
         step=0.1,
         longest=25.5,
         acts="",
-        clear="",
         arm=Phrase("~{unit}31{time}", "!{unit}"),
         digits=digits,
         radix=radix,
