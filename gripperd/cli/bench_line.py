@@ -1,12 +1,13 @@
 """What `gripperd bench` is told about its line: modules, place, pace and faults."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
 from gripperd.bench.modbus_speaker import RtuSpeaker
 from gripperd.bench.modules import Fitted, Modules
+from gripperd.bench.object import BenchObject
 from gripperd.bench.pace import Pace
 from gripperd.bench.speaker import Speaker
 from gripperd.bench.text_speaker import DconSpeaker, ItvSpeaker
@@ -14,6 +15,7 @@ from gripperd.bench.wire_faults import Kind, WireFault
 from gripperd.config.complaint import did_you_mean
 from gripperd.config.module_library import ModuleLibrary, load_module
 from gripperd.config.wording import shown
+from gripperd.control.profile import Profile
 from gripperd.errors import InputError
 from gripperd.protocol.modules import InputModule, OutputModule
 from gripperd.protocol.rtu import silence
@@ -60,6 +62,8 @@ class BenchLine:
     tcp: tuple[str, int] | None = None
     """Without it, and without `port`, the address in the settings."""
     port: Port | None = None
+    object: str | None = None
+    """Profile of what lies between the jaws at the start."""
     faults: Sequence[WireFault] = ()
     chance: float = 0.0
 
@@ -147,3 +151,24 @@ def wire_fault(text: str) -> WireFault:
         numbers[key] = int(value)
     delay = numbers.pop("delay_ms", 1000) * MILLI
     return WireFault(kind=Kind(kind), delay=delay, **numbers)
+
+
+def lying(name: str, profiles: Mapping[str, Profile]) -> BenchObject:
+    """Make the object that a profile describes.
+
+    Raises
+    ------
+    InputError
+        There is no profile of that name.
+    """
+    profile = profiles.get(name)
+    if profile is None:
+        message = f"--object {name!r} is not a profile; {did_you_mean(name, profiles)}"
+        raise InputError(message, key="--object")
+    return BenchObject(
+        diameter=profile.diameter,
+        stiffness=profile.stiffness,
+        mass=profile.mass,
+        friction=profile.pad_friction,
+        damage_force=profile.damage_force,
+    )

@@ -14,7 +14,7 @@ from gripperd.bench.sensors import Channel, Sensor, SensorSettings
 from gripperd.bench.serial_server import serve_serial
 from gripperd.bench.server import BenchServer, serve_bench
 from gripperd.bench.wire_faults import WireFaults
-from gripperd.cli.bench_line import BenchLine
+from gripperd.cli.bench_line import BenchLine, lying
 from gripperd.cli.notify import notify
 from gripperd.cli.processes import bench_socket, simulated
 from gripperd.config import GripperSettings, Settings
@@ -30,6 +30,8 @@ async def bench(settings: Settings, line: BenchLine) -> None:
     gripper = _gripper(settings, line)
     rng = random.Random(settings.bench.seed)
     rig = Rig(gripper.chain, rng, sensors=_sensors(gripper, settings.bench.noise))
+    if line.object is not None:
+        rig.plant.place(lying(line.object, settings.profiles))
     fitted = line.fitted or _wired(gripper, settings)
     for each in fitted:
         for said in each.module.doubts:

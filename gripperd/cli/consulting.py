@@ -15,10 +15,14 @@ from gripperd.doctor.machine import this_machine
 from gripperd.doctor.ports import serial_port, serial_ports
 from gripperd.doctor.probe import Found, Probe, opened
 from gripperd.drivers.bus import Address, SerialAddress, TcpAddress, open_bus
+from gripperd.drivers.serial_port import IN_USE
 from gripperd.errors import InputError, LinkError
 from gripperd.link.buses import BusFigures, ReadBuses
 from gripperd.link.client import Client
 
+FREE = (
+    "end the program that has it open; a daemon shows its exchanges with `bus monitor`"
+)
 ODD = (
     "see whether another master, another protocol or noise is on the line, and whether"
     " it echoes"
@@ -53,7 +57,8 @@ async def probe(
     try:
         found = await asking.search(attempts)
     except LinkError as error:
-        found, result = [], Result.failed(str(error), LINE)
+        remedy = FREE if str(error).endswith(IN_USE) else LINE
+        found, result = [], Result.failed(str(error), remedy)
         return found, [Finding(subject, "probe", result)]
     findings = [
         Finding(subject, f"unit {each.unit}", _identified(each)) for each in found

@@ -36,6 +36,10 @@ Even = Annotated[
 Checksum = Annotated[
     bool, typer.Option("--checksum", help="Lines of DCON end in a checksum.")
 ]
+Object = Annotated[
+    str | None,
+    typer.Option("--object", help="Profile of what lies between the open jaws."),
+]
 FaultTexts = Annotated[
     list[str] | None,
     typer.Option(
@@ -61,6 +65,7 @@ def bench(  # noqa: PLR0913  (its options)
     baud: Baud = 9600,
     even: Even = False,
     checksum: Checksum = False,
+    object_: Object = None,
     fault: FaultTexts = None,
     fault_chance: Chance = 0.0,
 ) -> None:
@@ -78,6 +83,7 @@ def bench(  # noqa: PLR0913  (its options)
         fitted=bench_line.fitted(module or ()),
         tcp=host_and_port("--tcp", tcp),
         port=port,
+        object=object_,
         faults=tuple(map(bench_line.wire_fault, fault or ())),
         chance=fault_chance,
     )

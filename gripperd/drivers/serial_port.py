@@ -12,6 +12,7 @@ from gripperd.errors import LinkLost
 
 VMIN = 6
 """Place of the control characters in what `termios.tcgetattr` returns."""
+IN_USE = "is in use by another program"
 SYSFS = Path("/sys")
 """Where the kernel tells about its devices."""
 
@@ -58,7 +59,7 @@ def complaint(path: str, error: Exception) -> str:
     if number == errno.EACCES:
         return f"{path} may not be opened: {_remedy(path)}"
     if number in {errno.EBUSY, errno.EWOULDBLOCK}:
-        return f"{path} is in use by another program"
+        return f"{path} {IN_USE}"
     return f"{path} cannot be opened as a serial port: {error}"
 
 

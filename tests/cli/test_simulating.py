@@ -3,6 +3,7 @@
 import os
 import re
 import subprocess
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -54,6 +55,26 @@ def test_an_i_7024_answers_on_a_pty(tmp_path: Path) -> None:
         assert "icpdas_i_7024 unit 3" in said
         assert talk(port, b"#030+10.700\r", b"$0360\r") == [b">\r", b"!03+10.700\r"]
     assert not port.is_symlink()
+
+
+def test_an_object_lies_between_the_jaws(tmp_path: Path) -> None:
+    port = tmp_path / "line"
+    options = ("--module", "icpdas_i_7024", "--module", "adam_4017_plus:2")
+    line = ("--dcon", str(port), "--baud", "115200", "--object", "apple")
+    with listening(tmp_path, *options, *line):
+        talk(port, b"#010+10.700\r")
+        end, grip = time.monotonic() + PATIENT, 0.0
+        # 47.6 N of 100 N at 10.7 mA: 11.6 mA, and 4 mA without the apple.
+        while grip < 11.0 and time.monotonic() < end:
+            (reply,) = talk(port, b"#02\r")
+            grip = float(reply[15:22])
+    assert grip == pytest.approx(11.6, abs=0.6)
+
+
+def test_an_object_without_a_profile_is_refused(tmp_path: Path) -> None:
+    said = gripperd("bench", "--config", str(settings_file(tmp_path)), "--object", "eg")
+    assert said.returncode == 2
+    assert "--object 'eg' is not a profile; there are: apple" in said.stderr
 
 
 def test_faults_are_met_in_the_order_of_the_options(tmp_path: Path) -> None:
