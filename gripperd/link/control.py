@@ -10,6 +10,7 @@ from gripperd.control.ledger import Key
 from gripperd.control.loop import Loop
 from gripperd.control.swap import swap
 from gripperd.errors import NotFound
+from gripperd.link.buses import BusDesk, ReadBuses, ReadTraffic
 from gripperd.link.frames import decode
 from gripperd.link.model import ModelMessage, chain_of
 
@@ -37,6 +38,10 @@ class Submitted(msgspec.Struct, frozen=True):
 
 class ReadOverview(msgspec.Struct, frozen=True, tag=True):
     """Ask for the :class:`Overview`."""
+
+
+class ReadModules(msgspec.Struct, frozen=True, tag=True):
+    """Ask for the :class:`RigFacts` of every gripper, by its name."""
 
 
 class ReadState(msgspec.Struct, frozen=True, tag=True):
@@ -114,17 +119,26 @@ Request: TypeAlias = (
     | Stop
     | Enable
     | Disable
+    | ReadBuses
+    | ReadTraffic
+    | ReadModules
     | UseModel
 )
 
 
 class ControlDesk:
-    """Answers the service on behalf of the loops."""
+    """Answers the service on behalf of the loops and their buses."""
 
     def __init__(
-        self, loops: dict[str, Loop], *, real_time: bool, started_at: float
+        self,
+        loops: dict[str, Loop],
+        buses: BusDesk | None = None,
+        *,
+        real_time: bool,
+        started_at: float,
     ) -> None:
         self._loops = loops
+        self._buses = buses or BusDesk({})
         self._real_time = real_time
         self._started_at = started_at
 
@@ -135,6 +149,10 @@ class ControlDesk:
             overruns = sum(loop.overruns for loop in self._loops.values())
             names = tuple(self._loops)
             return Overview(names, self._real_time, overruns, self._started_at)
+        if isinstance(request, ReadBuses | ReadTraffic):
+            return self._buses.respond(request)
+        if isinstance(request, ReadModules):
+            return {name: loop.facts for name, loop in self._loops.items()}
         if isinstance(request, UseModel):
             loops = [self._loop(name) for name in request.grippers]
             swap([loop.gripper for loop in loops], chain_of(request.model))

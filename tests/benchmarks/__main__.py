@@ -8,9 +8,16 @@ import sys
 
 from rich.console import Console
 
-from tests.benchmarks import bus, latency, physics, plant
+from tests.benchmarks import bus, faults, latency, outage, physics, plant
 
-CHAPTERS = {"physics": physics, "plant": plant, "bus": bus, "latency": latency}
+CHAPTERS = {
+    "physics": physics,
+    "plant": plant,
+    "bus": bus,
+    "faults": faults,
+    "outage": outage,
+    "latency": latency,
+}
 
 
 def main() -> None:
