@@ -17,7 +17,7 @@ STRUCTURED = 1e-4
 """Chance below which what is left is no noise, over all ways of looking at it."""
 VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
-EXPLAINED = 0.65
+EXPLAINED = 0.72
 """Share of the structure that a right explanation takes away. [-]"""
 
 
