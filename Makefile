@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: run test bench faults soak exam exam-peers lint clean
+.PHONY: run test bench faults soak fuzz exam exam-peers lint clean
 
 run: $(VENV)/installed
 	$(BIN)/gripperd run
@@ -12,6 +12,7 @@ run: $(VENV)/installed
 test: $(VENV)/developing
 	$(BIN)/pytest
 
+# All of them, unless ONLY names some: physics, plant, bus, faults, outage, latency.
 bench: $(VENV)/developing
 	$(BIN)/python -m tests.benchmarks $(ONLY)
 
@@ -22,6 +23,10 @@ faults: $(VENV)/developing
 # N grasps with mishaps, from the first SEED on, in the time of the simulated rig.
 soak: $(VENV)/developing
 	$(BIN)/python -m tests.soak
+
+# N inputs in all, a million unless told otherwise.
+fuzz: $(VENV)/developing
+	$(BIN)/python -m tests.fuzz $(N)
 
 # CASES, FAMILY (A, B, both), JOBS, SEED and RESULTS (JSON lines) are variables.
 EXAM = $(if $(CASES),--cases $(CASES)) $(if $(FAMILY),--family $(FAMILY)) \

@@ -13,7 +13,10 @@
          │   └─ NotConnected    nor was there one to send anything over
          ├─ ReplyTimeout    no reply inside the deadline
          ├─ BadReply        a reply that does not answer the request
+         │   └─ LocalEcho   it is the request itself, heard on the same line
+         ├─ ModuleMismatch  a module is set up otherwise than the settings say
          └─ DeviceRefused   the device understood, and said no
+             └─ WatchdogTripped   and will, until its watchdog is cleared
 """
 
 
@@ -98,6 +101,14 @@ class BadReply(LinkError):
     """A reply that does not answer the request; it was not believed."""
 
 
+class LocalEcho(BadReply):
+    """The reply is the request itself: the line hands back what is sent on it."""
+
+
+class ModuleMismatch(LinkError):
+    """A module is set up otherwise than the settings say; it was not driven."""
+
+
 class DeviceRefused(LinkError):
     """The device understood the request and said no.
 
@@ -106,9 +117,17 @@ class DeviceRefused(LinkError):
     message
         The request and the exception, in words.
     exception_code
-        The Modbus exception code (Modbus Application Protocol V1.1b3, section 7).
+        The Modbus exception code (Modbus Application Protocol V1.1b3, section 7);
+        None from devices that speak something else.
     """
 
-    def __init__(self, message: str, *, exception_code: int) -> None:
+    def __init__(self, message: str, *, exception_code: int | None = None) -> None:
         super().__init__(message)
         self.exception_code = exception_code
+
+
+class WatchdogTripped(DeviceRefused):
+    """The device has missed its host: its outputs are at their safe values.
+
+    It ignores what it is told to put out until the watchdog is cleared.
+    """

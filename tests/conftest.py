@@ -10,20 +10,20 @@ from gripperd.bench.modules import Modules
 from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Sensor, SensorSettings
 from gripperd.bench.server import BenchServer, serve_bench
+from gripperd.config.module_library import ModuleLibrary
 from gripperd.control.profile import Mode, Profile
 from gripperd.drivers.analog import AnalogRig, InputWiring, OutputWiring, SensorWiring
-from gripperd.drivers.bus import Bus, TcpAddress
+from gripperd.drivers.bus import ModbusBus, TcpAddress
 from gripperd.effects.braid_friction import BraidFriction
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model import Chain, Linkage, Muscle, Regulator, StaticMuscle
 from gripperd.protocol.live_zero import LoopScale
-from gripperd.protocol.modules import INPUTS, OUTPUTS
 
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
 
-OUTPUT = OUTPUTS["waveshare_ao_8ch"]
-INPUT = INPUTS["waveshare_ai_8ch"]
+OUTPUT = ModuleLibrary().output("waveshare_ao_8ch")
+INPUT = ModuleLibrary().input("waveshare_ai_8ch")
 OUTPUT_UNIT, INPUT_UNIT = 1, 2
 SPANS = {"pressure": 600e3, "opening": 0.1, "grip": 100.0}
 
@@ -155,7 +155,7 @@ def bench_address(bench: BenchServer) -> TcpAddress:
 
 
 @pytest.fixture
-def wired() -> Callable[[Bus], AnalogRig]:
+def wired() -> Callable[[ModbusBus], AnalogRig]:
     """Wires valve and sensors of the simulated rig to a bus."""
     sensors = {
         name: SensorWiring(

@@ -59,6 +59,7 @@ class Rig:
     ) -> None:
         self.plant = Plant(chain, settings or PlantSettings())
         self.trace: deque[Sample] = deque(maxlen=TRACE_LENGTH)
+        self._regulator = chain.regulator
         self._sensors = Sensors(sensors or SensorSettings(), rng)
         wrong = tuple(filter(acts_in_sensor, chain.effects))
         self._wrong = {
@@ -100,6 +101,10 @@ class Rig:
         faults = self.plant.faults
         values = self._true() | self._shown
         return self._sensors.read(values, broken=faults.broken, frozen=faults.frozen)
+
+    def outlet_current(self) -> float:
+        """Current that stands for the pressure at the regulator outlet. [A]."""
+        return float(self._regulator.current(self.plant.outlet_pressure))
 
     def _true(self) -> dict[Channel, float]:
         plant = self.plant

@@ -58,9 +58,12 @@ def main() -> NoReturn:
         daemon,
         demonstrating,
         diagnosing,
+        examining,
         model,
+        monitoring,
         operate,
         physics,
+        simulating,
     )
 
     try:

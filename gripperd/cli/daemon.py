@@ -49,19 +49,8 @@ def run(config: ConfigFile = None) -> None:
     settings = load_settings(config)
     # A damaged version is told before anything is started.
     with_active_models(settings)
-    _log_to_stderr()
+    log_to_stderr()
     raise typer.Exit(run_daemon(settings, Console(highlight=False, soft_wrap=True)))
-
-
-@app.command()
-def bench(config: ConfigFile = None, tcp: Tcp = None) -> None:
-    """Run the simulated rig alone: a Modbus TCP server with two analog modules."""
-    from gripperd.cli import processes
-    from gripperd.config import load_settings
-
-    settings = load_settings(config)
-    _log_to_stderr()
-    processes.run_process(processes.bench(settings, _host_and_port("--tcp", tcp)))
 
 
 @app.command()
@@ -72,8 +61,8 @@ def control(config: ConfigFile = None, bench: Bench = None) -> None:
     from gripperd.store import with_active_models
 
     settings = with_active_models(load_settings(config))
-    spool = _log_to_stderr()
-    address = _host_and_port("--bench", bench)
+    spool = log_to_stderr()
+    address = host_and_port("--bench", bench)
     control = processes.control(settings, address, lambda: spool.dropped)
     processes.run_process(control)
 
@@ -86,8 +75,8 @@ def service(config: ConfigFile = None, http: Http = None) -> None:
     from gripperd.config import KEYLESS, is_loopback, load_settings
 
     settings = load_settings(config)
-    _log_to_stderr()
-    address = _host_and_port("--http", http)
+    log_to_stderr()
+    address = host_and_port("--http", http)
     if address is not None and not is_loopback(address[0]):
         message = f"--http {http!r} is not a loopback address; {KEYLESS}"
         raise InputError(message, key="--http")
@@ -126,7 +115,14 @@ def check(
         typer.echo(f"  warning: {warning}")
 
 
-def _host_and_port(option: str, address: str | None) -> tuple[str, int] | None:
+def host_and_port(option: str, address: str | None) -> tuple[str, int] | None:
+    """Read the address that an option gives, if it does.
+
+    Raises
+    ------
+    InputError
+        It is none.
+    """
     if address is None:
         return None
     host, _, port = address.rpartition(":")
@@ -136,7 +132,7 @@ def _host_and_port(option: str, address: str | None) -> tuple[str, int] | None:
     return host.removeprefix("[").removesuffix("]"), int(port)
 
 
-def _log_to_stderr() -> "Spool":
+def log_to_stderr() -> "Spool":
     """Plain lines; on a terminal in colour, without time stamps in the journal."""
     from gripperd.cli.spool import Spool
 

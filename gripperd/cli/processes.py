@@ -6,14 +6,12 @@ Each can be a systemd unit of its own; ``gripperd run`` starts and watches all o
 import asyncio
 import ctypes
 import os
-import random
 import signal
 import threading
 import time
 import uuid
 from collections.abc import Callable, Coroutine
 from contextlib import AsyncExitStack
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,20 +19,17 @@ from typing import Any
 import structlog
 import uvloop
 
-from gripperd.bench.modules import Modules
-from gripperd.bench.rig import Rig
-from gripperd.bench.sensors import Channel, Sensor, SensorSettings
-from gripperd.bench.server import serve_bench
 from gripperd.cli.notify import notify
 from gripperd.cli.supervisor import SUPERVISED, stop_requested
 from gripperd.cli.watchdog import Watchdog, longest_silence
 from gripperd.config import BenchBus, GripperSettings, Settings
 from gripperd.control.gripper import Gripper
 from gripperd.control.loop import Loop
-from gripperd.drivers.analog import AnalogRig
-from gripperd.drivers.bus import Bus, TcpAddress, open_bus
-from gripperd.errors import ConfigError, Refused
-from gripperd.link.bench import BenchDesk
+from gripperd.drivers.analog import AnalogRig, AnyBus
+from gripperd.drivers.bus import Address, TcpAddress, open_bus
+from gripperd.drivers.facts import warnings
+from gripperd.errors import Refused
+from gripperd.link.buses import BusDesk
 from gripperd.link.control import ControlDesk
 from gripperd.link.server import serve
 
@@ -103,30 +98,6 @@ def simulated(settings: Settings) -> GripperSettings | None:
     return None
 
 
-async def bench(settings: Settings, address: tuple[str, int] | None) -> None:
-    """Simulate the rig, on the wire."""
-    gripper = simulated(settings)
-    if gripper is None or gripper.input is None:
-        message = f"{settings.source}: no gripper with inputs is on the bench"
-        raise ConfigError(message)
-    rng = random.Random(settings.bench.seed)
-    rig = Rig(gripper.chain, rng, sensors=_sensors(gripper, settings.bench.noise))
-    modules = Modules(
-        rig,
-        (gripper.output.module, gripper.output.unit),
-        (gripper.input.module, gripper.input.unit),
-    )
-    # It stands for hardware, which does not wait for a processor.
-    _go_real_time()
-    host, port = address or (settings.bench.host, settings.bench.port)
-    async with serve_bench(modules, host, port) as server:
-        desk = BenchDesk(server, rig)
-        async with serve(bench_socket(settings), desk.respond):
-            log.info("bench listens", modbus_tcp=server.address)
-            notify(READY=1, ADDRESS=server.address)
-            await asyncio.Event().wait()
-
-
 async def control(
     settings: Settings,
     bench_address: tuple[str, int] | None,
@@ -143,17 +114,19 @@ async def control(
     unlogged
         Tells how many log lines were dropped so far.
     """
-    real_time = _go_real_time()
+    real_time = go_real_time()
     loops: dict[str, Loop] = {}
     watchdog = Watchdog(settings.grippers, longest_silence())
     async with AsyncExitStack() as open_things:
-        buses: dict[TcpAddress, Bus] = {}
+        buses: dict[Address, AnyBus] = {}
+        wired: dict[str, AnyBus] = {}
         for name, gripper in settings.grippers.items():
             address = _address(gripper, settings, bench_address)
             if address not in buses:
                 buses[address] = await open_things.enter_async_context(
                     open_bus(address)
                 )
+            wired[name] = buses[address]
             loops[name] = Loop(
                 Gripper(
                     name,
@@ -167,17 +140,31 @@ async def control(
                 advanced=partial(watchdog.advanced, name),
             )
         desk = ControlDesk(
-            loops, real_time=real_time, started_at=time.time(), unlogged=unlogged
+            loops,
+            BusDesk(wired),
+            real_time=real_time,
+            started_at=time.time(),
+            unlogged=unlogged,
         )
         await open_things.enter_async_context(
             serve(control_socket(settings), desk.respond)
         )
+        _warn(settings)
         async with asyncio.TaskGroup() as tasks:
             for loop in loops.values():
                 tasks.create_task(loop.run())
             await _attached(loops)
             log.info("control runs", grippers=list(loops), real_time=real_time)
             notify(READY=1)
+
+
+def _warn(settings: Settings) -> None:
+    """Say what a person should hear at every start."""
+    for said in settings.warnings:
+        log.warning(said)
+    for name, gripper in settings.grippers.items():
+        for said in warnings(gripper.output, gripper.input):
+            log.warning(said, gripper=name)
 
 
 async def _attached(loops: dict[str, Loop]) -> None:
@@ -190,27 +177,14 @@ async def _attached(loops: dict[str, Loop]) -> None:
 
 def _address(
     gripper: GripperSettings, settings: Settings, bench: tuple[str, int] | None
-) -> TcpAddress:
-    if isinstance(gripper.bus, TcpAddress):
+) -> Address:
+    if not isinstance(gripper.bus, BenchBus):
         return gripper.bus
     host, port = bench or (settings.bench.host, settings.bench.port)
     return TcpAddress(host=host, port=port)
 
 
-def _sensors(gripper: GripperSettings, noise: float) -> SensorSettings:
-    """Transmitters of the bench, matched to how the gripper reads them."""
-    settings = SensorSettings()
-    if gripper.input is None:
-        return settings
-    for channel in Channel:
-        wiring = gripper.input.sensors.get(channel)
-        if wiring is not None:
-            sensor = Sensor(wiring.scale, noise)
-            settings = replace(settings, **{channel.value: sensor})
-    return settings
-
-
-def _go_real_time() -> bool:
+def go_real_time() -> bool:
     """Ask for real-time priority; tell whether it was granted.
 
     For every thread: one without it that is interrupted while it has the interpreter's

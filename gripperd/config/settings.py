@@ -10,7 +10,7 @@ from gripperd.control.budget import FailMode
 from gripperd.control.monitors.policy import Cause, Monitoring, Policy
 from gripperd.control.profile import Profile
 from gripperd.drivers.analog import InputWiring, OutputWiring
-from gripperd.drivers.bus import TcpAddress
+from gripperd.drivers.bus import Address
 from gripperd.model import Chain
 
 KEYLESS = (
@@ -65,7 +65,7 @@ class GripperSettings:
     """One gripper: its wiring, its model, its habits."""
 
     name: str
-    bus: BenchBus | TcpAddress
+    bus: BenchBus | Address
     output: OutputWiring
     input: InputWiring | None
     """None: no sensors are fitted; all is left to the model."""
@@ -107,3 +107,5 @@ class Settings:
     bench: BenchSettings
     source: Path
     """The file all this was read from."""
+    warnings: tuple[str, ...] = ()
+    """What is allowed, and doubtful, about the settings themselves."""

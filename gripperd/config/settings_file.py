@@ -3,7 +3,6 @@
 # ruff: noqa: N815  (names carry units, and units have capitals)
 
 import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -11,7 +10,16 @@ from typing import Annotated
 
 from pydantic import Field, PlainValidator, ValidationInfo, field_validator
 
-from gripperd.config.document import read_document
+from gripperd.config.bus_section import (
+    BENCH,
+    Address,
+    BusName,
+    HostPort,
+    dialect_on,
+)
+from gripperd.config.bus_sharing import check_one_way
+from gripperd.config.directories import runtime_dir, state_dir
+from gripperd.config.document import Document, read_document
 from gripperd.config.interlocks import (
     InterlocksSection,
     check_bench_contacts,
@@ -19,8 +27,10 @@ from gripperd.config.interlocks import (
 )
 from gripperd.config.location import shipped
 from gripperd.config.model import ModelFile, load_model
+from gripperd.config.module_library import ModuleLibrary
 from gripperd.config.monitors import MonitorsSection
 from gripperd.config.profile import load_profiles
+from gripperd.config.range_check import check_driven, check_set_range
 from gripperd.config.section import Name, Section
 from gripperd.config.settings import (
     KEYLESS,
@@ -31,18 +41,14 @@ from gripperd.config.settings import (
     Settings,
     is_loopback,
 )
+from gripperd.config.surroundings import Surroundings, folder_of, library
 from gripperd.config.validation import validated
+from gripperd.config.watchdog_check import check_kept, check_watchdog
 from gripperd.config.wiring import (
-    BENCH,
-    Address,
-    BusName,
-    HostPort,
     InputSection,
     OutputSection,
-    TcpSection,
     check_bench_input,
     check_bench_output,
-    check_driven,
 )
 from gripperd.config.wording import shown
 from gripperd.control.budget import WORST_LEAK, FailMode
@@ -59,14 +65,22 @@ def _profiles(name: object, asked: ValidationInfo) -> Mapping[str, Profile]:
     return load_profiles(_named(name, asked))
 
 
+def _modules(name: object, asked: ValidationInfo) -> Path:
+    if not (found := _named(name, asked)).is_dir():
+        message = f"{shown(name)} is not a folder"
+        raise ValueError(message)
+    library(asked).check_own()
+    return found
+
+
 def _named(name: object, asked: ValidationInfo) -> Path:
     """Path of a file or folder that the settings name, relative to their own."""
-    folder = Path(asked.context or "")
+    here = folder_of(asked)
     # The name may be too long, or lead where this user may not look.
     with suppress(OSError):
-        if isinstance(name, str) and (folder / name).exists():
-            return folder / name
-    message = f"{shown(name)} cannot be found from {folder}"
+        if isinstance(name, str) and (here / name).exists():
+            return here / name
+    message = f"{shown(name)} cannot be found from {here}"
     raise ValueError(message)
 
 
@@ -105,24 +119,32 @@ class GripperSection(Section):
     interlocks: InterlocksSection = InterlocksSection()
     monitors: MonitorsSection = MonitorsSection()
     auto_enable: bool = False
-    rate_Hz: float = Field(default=100.0, ge=1, le=500)
+    rate_Hz: float = Field(default=100.0, ge=1, le=500, validate_default=True)
 
     @field_validator("output")
     @classmethod
-    def _is_the_benchs(
+    def _fits_the_bus(
         cls, output: OutputSection, read: ValidationInfo
     ) -> OutputSection:
-        if read.data.get("bus") == BENCH:
+        bus = read.data.get("bus")
+        if bus is not None:
+            wiring = output.wiring(dialect_on(bus, output.module))
+            check_watchdog(wiring)
+            check_set_range(wiring)
+        if bus == BENCH:
             check_bench_output(output)
         return output
 
     @field_validator("input")
     @classmethod
-    def _are_the_benchs(
+    def _are_on_the_bus(
         cls, inputs: InputSection | None, read: ValidationInfo
     ) -> InputSection | None:
-        if read.data.get("bus") == BENCH:
+        bus = read.data.get("bus")
+        if bus == BENCH:
             check_bench_input(inputs)
+        if bus is not None and inputs is not None:
+            check_set_range(inputs.wiring(dialect_on(bus, inputs.module)))
         return inputs
 
     @field_validator("interlocks")
@@ -141,18 +163,27 @@ class GripperSection(Section):
     def _can_be_driven(cls, model: ModelFile, read: ValidationInfo) -> ModelFile:
         output = read.data.get("output")
         if output is not None:
-            check_driven(model.chain().regulator, output.module)
+            module = output.module
+            check_driven(model.chain().regulator, module, module.range(output.range))
         return model
+
+    @field_validator("rate_Hz")
+    @classmethod
+    def _keeps_the_watchdog(cls, rate: float, read: ValidationInfo) -> float:
+        output = read.data.get("output")
+        if output is not None and output.watchdog is not None:
+            check_kept(output.watchdog.settings, rate)
+        return rate
 
     def settings(self, name: str) -> GripperSettings:
         """The same in SI."""
-        tcp = self.bus.address if isinstance(self.bus, TcpSection) else None
+        bus, inputs = self.bus, self.input
         return GripperSettings(
             name=name,
-            bus=tcp or BenchBus(),
-            output=self.output.wiring,
+            bus=BenchBus() if bus == BENCH else bus.address,
+            output=self.output.wiring(dialect_on(bus, self.output.module)),
             input=self.interlocks.with_contacts(
-                self.input.wiring if self.input else None
+                inputs.wiring(dialect_on(bus, inputs.module)) if inputs else None
             ),
             model=self.model,
             chain=self.model.chain(),
@@ -170,6 +201,7 @@ class SettingsSection(Section):
     http: HttpSection = HttpSection()
     runtime_dir: str | None = Field(default=None, min_length=1)
     state_dir: str | None = Field(default=None, min_length=1)
+    modules: Annotated[Path | None, PlainValidator(_modules)] = None
     grippers: dict[Name, GripperSection] = Field(min_length=1)
     profiles: Annotated[Mapping[str, Profile], PlainValidator(_profiles)]
     bench: BenchSection = BenchSection()
@@ -179,6 +211,7 @@ class SettingsSection(Section):
     def _share_nothing(
         cls, grippers: dict[str, GripperSection]
     ) -> dict[str, GripperSection]:
+        check_one_way({name: gripper.bus for name, gripper in grippers.items()})
         owner: dict[str, str] = {}
         for name, gripper in grippers.items():
             for thing, use in _uses(name, gripper):
@@ -206,15 +239,15 @@ class SettingsSection(Section):
 def _uses(name: str, gripper: GripperSection) -> Iterator[tuple[str, str]]:
     """What a gripper claims on its bus, and what for."""
     bus, output = gripper.bus, gripper.output
-    if isinstance(bus, TcpSection):
-        where = str(bus.address)
-        yield f"the bus at {where}", f"asked with timeout_ms {bus.timeout_ms:g}"
-    else:
-        where = bus
+    if bus == BENCH:
+        where: str = bus
         yield "the bench", f"the rig of {name}"
-    unit = f"unit {output.unit} on {where}"
+    else:
+        where = str(bus.address)
+    # A device without an address has its line for itself.
+    unit = f"unit {output.unit} on {where}" if output.unit else f"the device on {where}"
     yield unit, output.module.name
-    yield f"channel {output.channel} of {unit}", f"the valve of {name}"
+    yield f"channel {output.channel or 0} of {unit}", f"the valve of {name}"
     if gripper.input:
         yield f"unit {gripper.input.unit} on {where}", gripper.input.module.name
 
@@ -240,12 +273,14 @@ def load_settings(
     named = environ.get("GRIPPERD_CONFIG")
     source = path or (Path(named) if named else shipped("gripperd.yaml"))
     folder = source.parent
-    section = validated(SettingsSection, read_document(source), folder)
+    document = read_document(source)
+    around = Surroundings(folder, ModuleLibrary(_own_modules(document, folder)))
+    section = validated(SettingsSection, document, around)
     bench = section.bench
     return Settings(
         http=Http(host=section.http.host, port=section.http.port),
-        runtime_dir=_runtime_dir(section.runtime_dir, folder, environ),
-        state_dir=_state_dir(section.state_dir, folder, environ),
+        runtime_dir=runtime_dir(section.runtime_dir, folder, environ),
+        state_dir=state_dir(section.state_dir, folder, environ),
         grippers={
             name: gripper.settings(name) for name, gripper in section.grippers.items()
         },
@@ -257,23 +292,20 @@ def load_settings(
             noise=bench.noise_percent / 100,
         ),
         source=source,
+        warnings=tuple(_doubts(section)),
     )
 
 
-def _runtime_dir(named: str | None, folder: Path, environ: Mapping[str, str]) -> Path:
-    if named is not None:
-        return folder / named
-    given = _first(environ, "RUNTIME_DIRECTORY")
-    return Path(given or Path(tempfile.gettempdir(), f"gripperd-{os.getuid()}"))
+def _own_modules(document: Document, folder: Path) -> Path | None:
+    """Folder of descriptions that the file names, known before its sections are read.
+
+    What is wrong with it is said where the key is validated.
+    """
+    named = document.value.get("modules") if isinstance(document.value, dict) else None
+    return folder / named if isinstance(named, str) else None
 
 
-def _state_dir(named: str | None, folder: Path, environ: Mapping[str, str]) -> Path:
-    if named is not None:
-        return folder / named
-    home = environ.get("XDG_STATE_HOME") or Path("~/.local/state").expanduser()
-    return Path(_first(environ, "STATE_DIRECTORY") or Path(home, "gripperd"))
-
-
-def _first(environ: Mapping[str, str], variable: str) -> str:
-    """The unit's own directory: systemd lists several with colons."""
-    return environ.get(variable, "").partition(":")[0]
+def _doubts(section: SettingsSection) -> Iterator[str]:
+    for name, gripper in section.grippers.items():
+        if gripper.bus != BENCH:
+            yield from (f"{name}: {said}" for said in gripper.bus.warnings)

@@ -1,68 +1,46 @@
-"""Sections of the settings file about buses, modules and channels."""
+"""Sections of the settings file about modules and channels."""
 
 # ruff: noqa: N815  (names carry units, and units have capitals)
 
-import re
 from collections.abc import Mapping
-from typing import Annotated, Literal, NamedTuple, TypeAlias
+from typing import Annotated, TypeAlias
 
-from pydantic import (
-    Discriminator,
-    Field,
-    PlainValidator,
-    Tag,
-    ValidationInfo,
-    field_validator,
-)
+from pydantic import Field, PlainValidator, ValidationInfo, field_validator
 
 from gripperd.bench.sensors import Channel as BenchChannel
 from gripperd.config.complaint import did_you_mean
-from gripperd.config.section import Kilopascals, Rising, Section, Span, numbers
-from gripperd.config.wording import shown
-from gripperd.drivers.analog import InputWiring, OutputWiring, SensorWiring
-from gripperd.drivers.bus import TcpAddress
-from gripperd.model import Regulator
+from gripperd.config.section import (
+    Kilopascals,
+    Milliamperes,
+    Name,
+    Rising,
+    Section,
+    Span,
+    numbers,
+)
+from gripperd.config.surroundings import library
+from gripperd.drivers.analog import (
+    InputWiring,
+    OutputWiring,
+    SensorWiring,
+    WatchdogSettings,
+)
 from gripperd.protocol.live_zero import LoopScale
-from gripperd.protocol.modules import INPUTS, OUTPUTS, InputModule, OutputModule
-from gripperd.units import MILLI
+from gripperd.protocol.modules import InputModule, Module, ModuleDialect, OutputModule
 
-BENCH: Literal["bench"] = "bench"
-"""Name of the bus of the simulated rig."""
-ADDRESS = re.compile(r"(?:\[([0-9A-Fa-f:.]+)\]|([^\s:\[\]]+)):([0-9]{1,5})")
+NOBODY = 0
+"""Unit and channel of a device that is alone on its line."""
 
 
-class Address(NamedTuple):
-    """A host and a port."""
-
-    host: str
-    port: int
+def _output(name: object, asked: ValidationInfo) -> OutputModule:
+    return library(asked).output(name)
 
 
-def _address(text: object) -> Address:
-    found = ADDRESS.fullmatch(text) if isinstance(text, str) else None
-    if not found or int(found[3]) > 65535:
-        message = f'{shown(text)} is not "host:port" with a port of 0 to 65535'
-        raise ValueError(message)
-    return Address(found[1] or found[2], int(found[3]))
+def _input(name: object, asked: ValidationInfo) -> InputModule:
+    return library(asked).input(name)
 
 
-def _output(name: object) -> OutputModule:
-    if not isinstance(name, str) or name not in OUTPUTS:
-        hint = did_you_mean(str(name), OUTPUTS)
-        message = f"{shown(name)} is not an output module; {hint}"
-        raise ValueError(message)
-    return OUTPUTS[name]
-
-
-def _input(name: object) -> InputModule:
-    if not isinstance(name, str) or name not in INPUTS:
-        hint = did_you_mean(str(name), INPUTS)
-        message = f"{shown(name)} is not an input module; {hint}"
-        raise ValueError(message)
-    return INPUTS[name]
-
-
-def _check_channel(channel: int, module: OutputModule | InputModule | None) -> None:
+def _check_channel(channel: int, module: Module | None) -> None:
     """Refuse a channel that a module does not have; None is a module not known."""
     if module is not None and channel >= module.channels:
         last = module.channels - 1
@@ -70,7 +48,13 @@ def _check_channel(channel: int, module: OutputModule | InputModule | None) -> N
         raise ValueError(message)
 
 
-HostPort: TypeAlias = Annotated[Address, PlainValidator(_address)]
+def _check_range(name: str | None, module: Module | None) -> None:
+    if module is not None and name is not None and name not in module.ranges:
+        hint = did_you_mean(name, module.ranges)
+        message = f'"{name}" is not a range of {module.name}; {hint}'
+        raise ValueError(message)
+
+
 Unit: TypeAlias = Annotated[int, Field(ge=1, le=247)]
 """Address of a Modbus server on a line (Modbus over serial line V1.02, 2.2)."""
 Channel: TypeAlias = Annotated[int, Field(ge=0)]
@@ -78,42 +62,64 @@ LiveZero: TypeAlias = Annotated[float, Field(ge=3.6, le=21)]
 """What a working loop carries; anything else says that it is broken (NE 43). [mA]"""
 
 
-class TcpSection(Section):
-    """A Modbus TCP device or gateway."""
+class WatchdogSection(Section):
+    """What the output module does when this daemon falls silent."""
 
-    tcp: HostPort
-    timeout_ms: float = Field(default=200.0, gt=0, le=10_000)
+    timeout_s: float | None = Field(default=None, gt=0, le=86_400)
+    safe_mA: Milliamperes | None = None
 
     @property
-    def address(self) -> TcpAddress:
+    def settings(self) -> WatchdogSettings:
         """The same for the driver."""
-        return TcpAddress(host=self.tcp.host, port=self.tcp.port, **numbers(self))
-
-
-BusName: TypeAlias = Annotated[
-    Annotated[Literal["bench"], Tag("the bench")]
-    | Annotated[TcpSection, Tag("a TCP bus")],
-    Discriminator(lambda bus: "a TCP bus" if isinstance(bus, dict) else "the bench"),
-]
+        asked = numbers(self)
+        return WatchdogSettings(
+            timeout=asked.get("timeout"), safe_current=asked.get("safe")
+        )
 
 
 class OutputSection(Section):
     """The channel that drives the valve."""
 
     module: Annotated[OutputModule, PlainValidator(_output)]
-    unit: Unit
-    channel: Channel
+    unit: Unit | None = Field(default=None, validate_default=True)
+    channel: Channel | None = Field(default=None, validate_default=True)
+    range: Name | None = None
+    set_range: bool = False
+    watchdog: WatchdogSection | None = None
+
+    @field_validator("unit", "channel")
+    @classmethod
+    def _is_given(cls, number: int | None, read: ValidationInfo) -> int | None:
+        module = read.data.get("module")
+        if number is None and module is not None and not module.itv:
+            message = f"{read.field_name} is missing; {module.name} needs one"
+            raise ValueError(message)
+        return number
 
     @field_validator("channel")
     @classmethod
-    def _exists(cls, channel: int, read: ValidationInfo) -> int:
-        _check_channel(channel, read.data.get("module"))
+    def _exists(cls, channel: int | None, read: ValidationInfo) -> int | None:
+        if channel is not None:
+            _check_channel(channel, read.data.get("module"))
         return channel
 
-    @property
-    def wiring(self) -> OutputWiring:
+    @field_validator("range")
+    @classmethod
+    def _is_one(cls, name: str | None, read: ValidationInfo) -> str | None:
+        _check_range(name, read.data.get("module"))
+        return name
+
+    def wiring(self, dialect: ModuleDialect) -> OutputWiring:
         """The same for the driver."""
-        return OutputWiring(module=self.module, unit=self.unit, channel=self.channel)
+        return OutputWiring(
+            module=self.module,
+            unit=self.unit or NOBODY,
+            channel=self.channel or NOBODY,
+            dialect=dialect,
+            range_name=self.range,
+            set_range=self.set_range,
+            watchdog=self.watchdog.settings if self.watchdog else None,
+        )
 
 
 class SensorSection(Section):
@@ -155,9 +161,17 @@ class InputSection(Section):
 
     module: Annotated[InputModule, PlainValidator(_input)]
     unit: Unit
+    range: Name | None = None
+    set_range: bool = False
     pressure: PressureSection | None = None
     opening: OpeningSection | None = None
     grip: GripSection | None = None
+
+    @field_validator("range")
+    @classmethod
+    def _is_one(cls, name: str | None, read: ValidationInfo) -> str | None:
+        _check_range(name, read.data.get("module"))
+        return name
 
     @field_validator("pressure", "opening", "grip")
     @classmethod
@@ -179,15 +193,21 @@ class InputSection(Section):
         fitted = {"pressure": self.pressure, "opening": self.opening, "grip": self.grip}
         return {name: sensor.wiring for name, sensor in fitted.items() if sensor}
 
-    @property
-    def wiring(self) -> InputWiring:
+    def wiring(self, dialect: ModuleDialect) -> InputWiring:
         """The same for the driver."""
-        return InputWiring(module=self.module, unit=self.unit, sensors=self.sensors)
+        return InputWiring(
+            module=self.module,
+            unit=self.unit,
+            sensors=self.sensors,
+            dialect=dialect,
+            range_name=self.range,
+            set_range=self.set_range,
+        )
 
 
 def check_bench_output(output: OutputSection) -> None:
     """Refuse a valve where the simulated rig has none."""
-    if output.channel != 0:
+    if output.channel:
         message = f"channel {output.channel}: the bench has its valve on channel 0"
         raise ValueError(message)
 
@@ -205,13 +225,3 @@ def check_bench_input(inputs: InputSection | None) -> None:
                 f" channel {channel}"
             )
             raise ValueError(message)
-
-
-def check_driven(regulator: Regulator, module: OutputModule) -> None:
-    """Refuse a valve whose upper end its output module cannot drive."""
-    if regulator.current_high > module.highest:
-        message = (
-            f"valve.current_mA ends at {regulator.current_high / MILLI:g} mA,"
-            f" {module.name} drives up to {module.highest / MILLI:g} mA"
-        )
-        raise ValueError(message)

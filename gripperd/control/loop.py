@@ -17,6 +17,7 @@ from gripperd.control.pace import Pace
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.control.timing import Timing
 from gripperd.drivers.analog import AnalogRig
+from gripperd.drivers.facts import RigFacts
 from gripperd.errors import InputError, LinkError
 
 if TYPE_CHECKING:
@@ -63,6 +64,11 @@ class Loop:
         self._log = structlog.get_logger().bind(gripper=gripper.name)
         self._told: tuple[Machine, Grip] | None = None
         self._statuses: dict[str, Status] = {}
+
+    @property
+    def facts(self) -> RigFacts:
+        """What is known of the modules by now."""
+        return self._rig.facts
 
     async def run(self) -> None:
         """Control for ever; each period ends at an absolute deadline."""

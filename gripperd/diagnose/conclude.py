@@ -6,10 +6,10 @@ from enum import StrEnum
 
 import numpy as np
 
+from gripperd.diagnose.found import Found
 from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rivalry import Contest
-from gripperd.diagnose.search import Found
 from gripperd.diagnose.structure import Structure, structures
 from gripperd.model.effect import Signal
 
@@ -17,7 +17,7 @@ STRUCTURED = 1e-4
 """Chance below which what is left is no noise, over all ways of looking at it."""
 VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
-EXPLAINED = 0.75
+EXPLAINED = 0.72
 """Share of the structure that a right explanation takes away. [-]"""
 
 

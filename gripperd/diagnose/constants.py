@@ -6,7 +6,7 @@ from math import isfinite
 
 import numpy as np
 
-from gripperd.diagnose.stages import Explanation
+from gripperd.diagnose.explanation import Explanation
 from gripperd.model.effect import Signal
 
 PLAIN = 0.0115

@@ -16,7 +16,8 @@ from gripperd.diagnose.gap import STRETCH, by_signal
 from gripperd.diagnose.gaussian_process import LENGTHS, Process, Samples, likeliest
 from gripperd.diagnose.holdout import Split
 from gripperd.diagnose.noise import Noise
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.regressors import REGRESSORS, inputs, varied
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from gripperd.diagnose.candidates import Candidate, amplitudes
 from gripperd.diagnose.constants import NUISANCE
 from gripperd.diagnose.gram import Fit, Gram
-from gripperd.diagnose.problem import FREED, Point, Problem
+from gripperd.diagnose.point import FREED, Point
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.response import responses, sensitivities
 from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -70,14 +72,14 @@ class Design:
 def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Design:
     """Evaluate and whiten the response of everything, around a point."""
     residuals = problem.residuals(point)
-    sensitivities = problem.sensitivities(point)
+    slopes = sensitivities(problem, point)
     build = _Builder(problem, residuals)
     starts = (point.shifts / point.widths).tolist()
     for start, width, reach, response in zip(
         starts,
         point.widths.tolist(),
         problem.reach(point).tolist(),
-        sensitivities,
+        slopes,
         strict=True,
     ):
         build.add(response, width, start, (-reach, reach))
@@ -92,7 +94,7 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
             if candidate.constant in point.freed:
                 continue
             assert candidate.constant is not None
-            response = sensitivities[candidate.constant]
+            response = slopes[candidate.constant]
             column = build.add(response, FREED, 0.0, (-NUISANCE, NUISANCE))
             columns, scales = [column], [FREED]
         else:
@@ -113,7 +115,7 @@ def _acting(
     known = parameters(effect)
     columns, scales = [], []
     names = amplitudes(effect)
-    for name, response in zip(names, problem.responses(point, effect), strict=True):
+    for name, response in zip(names, responses(problem, point, effect), strict=True):
         prior = problem_prior(problem, response) or 1.0
         start = getattr(effect, name) / known[name].scale / prior
         low, high = (
@@ -132,7 +134,7 @@ def _response(
     known = parameters(effect)
     columns, scales = [], []
     names = amplitudes(effect) or [""]
-    for name, response in zip(names, problem.responses(point, effect), strict=True):
+    for name, response in zip(names, responses(problem, point, effect), strict=True):
         prior = problem_prior(problem, response)
         if prior is None:
             continue

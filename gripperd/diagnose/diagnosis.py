@@ -1,14 +1,15 @@
 """The whole story of one recording: where, which effect, how much better."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from gripperd.diagnose.agreement import beyond_use
 from gripperd.diagnose.believed import believed
-from gripperd.diagnose.candidates import Candidate, candidates
+from gripperd.diagnose.candidates import candidates
 from gripperd.diagnose.conclude import (
     Conclusion,
     Verdict,
@@ -18,25 +19,29 @@ from gripperd.diagnose.conclude import (
 )
 from gripperd.diagnose.correction import Offer, offers
 from gripperd.diagnose.course import is_table
+from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.extrapolation import (
     Extrapolation,
     apart,
     extrapolation,
     swept,
 )
+from gripperd.diagnose.found import Found
 from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
 from gripperd.diagnose.holdout import Split, split
 from gripperd.diagnose.named import Named, named
 from gripperd.diagnose.next_experiment import Proposal, proposal
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Contradiction, Recording
+from gripperd.diagnose.rest_length import length_is_open, with_other_length
 from gripperd.diagnose.resting import with_resting_sign
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.rivalry import Contest, contest
-from gripperd.diagnose.search import Found, Rival, search
+from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.signature import signature
-from gripperd.diagnose.stages import Explanation
 from gripperd.diagnose.thinning import thinned
 from gripperd.diagnose.where import Finding, findings
 from gripperd.model.effect import Effect, Signal, Stage
@@ -45,8 +50,6 @@ MOST_ROWS = 40_000
 """More are averaged, whole numbers of neighbours: they cost and tell nothing."""
 WORSE = 1.01
 """Gap over that of better constants alone from which a name is withdrawn. [-]"""
-LOOSE = 0.0125
-"""Stated tolerance of the rest length from which its zero is open. [-]"""
 
 Progress: TypeAlias = Callable[[str, float], None]
 """Told what is being done, and the share that is done. [0..1]"""
@@ -127,6 +130,19 @@ def diagnose(
     InputError
         When no stage of the model can be compared with what was measured.
     """
+    # Threads cost small matrices more than they give, and would round otherwise.
+    with threadpool_limits(limits=1, user_api="blas"):
+        return _diagnosed(recording, model, tolerances, library, seed, progress)
+
+
+def _diagnosed(
+    recording: Recording,
+    model: Explanation,
+    tolerances: Mapping[str, float],
+    library: Mapping[str, type[Effect]],
+    seed: int,
+    progress: Progress,
+) -> Diagnosis:
     rng = np.random.default_rng(seed)
     progress("noise and drift", 0.05)
     contradicted = beyond_use(recording)
@@ -143,39 +159,11 @@ def diagnose(
     found = search(train, listed, rng)
     progress("rivals", 0.7)
     best = contest(found, listed)
-    if _length_is_open(train, best, tolerances):
+    if length_is_open(train, best, tolerances):
         progress("rest length", 0.8)
-        best = _with_other_length(train, best, listed, rng)
+        best = with_other_length(train, best, listed, rng)
     progress("verdict", 0.9)
     return _told(recording, parts, found, best, untested, seed)
-
-
-def _length_is_open(
-    train: Problem, best: Contest, tolerances: Mapping[str, float]
-) -> bool:
-    """Whether the zero of the recorded contraction is as uncertain as the rest length.
-
-    A recorder that counts from a rest length it does not know shifts every contraction.
-    """
-    sigma = tolerances.get("muscle.rest_length", 0.0)
-    loose = sigma > LOOSE * train.model.muscle.rest_length
-    return bool(best.best.candidates) and loose and train.model.told_length is None
-
-
-def _with_other_length(
-    train: Problem,
-    best: Contest,
-    listed: Sequence[Candidate],
-    rng: np.random.Generator,
-) -> Contest:
-    """Search again with the zero of contraction open; who leads then is a rival."""
-    told = replace(train.model, told_length=train.model.muscle.rest_length)
-    other = contest(search(replace(train, model=told), listed, rng), listed)
-    leaders = other.best.candidates[:1]
-    if not leaders or leaders[0].name in {best.best.names[0], *best.equivalents[0]}:
-        return best
-    rival = Rival((*leaders, *best.best.candidates[1:]), other.best.fit)
-    return replace(best, rivals=((*best.rivals[0], rival), *best.rivals[1:]))
 
 
 def _told(

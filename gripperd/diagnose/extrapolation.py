@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripperd.diagnose.course import Course
+from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.gap import Gap, gaps
 from gripperd.diagnose.holdout import Split
-from gripperd.diagnose.problem import Mask, Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.regressors import level
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripperd.diagnose.course import Course
-from gripperd.diagnose.problem import Mask, Problem
+from gripperd.diagnose.fault import Mask
+from gripperd.diagnose.problem import Problem
 
 SHARE = 0.2
 """Of the sweeps that can be spared. [-]"""

@@ -7,10 +7,12 @@ from math import exp
 import numpy as np
 
 from gripperd.diagnose.candidates import WRONG, Candidate
+from gripperd.diagnose.found import Found
 from gripperd.diagnose.gap import Gap
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.rivalry import Contest
-from gripperd.diagnose.search import Found, Rival
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import parameters
 

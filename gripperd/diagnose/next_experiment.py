@@ -12,14 +12,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripperd.diagnose.course import STILL, TRAVEL, Course
+from gripperd.diagnose.course import Course
 from gripperd.diagnose.key import plain
 from gripperd.diagnose.polish import slopes
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Kind
-from gripperd.diagnose.search import Rival
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.smoothing import Smooth
-from gripperd.diagnose.travel import travel
+from gripperd.diagnose.travel import STILL, TRAVEL, travel
 from gripperd.model.track import Array
 
 SAMPLING = 0.1

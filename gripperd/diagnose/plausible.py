@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array

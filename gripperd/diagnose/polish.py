@@ -14,7 +14,9 @@ import numpy as np
 
 from gripperd.diagnose.design import limits, problem_prior
 from gripperd.diagnose.gram import bounded
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.response import change, responses, sensitivities
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -112,10 +114,10 @@ def _limits(
 def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
     found: list[Coordinate] = []
     for effect in point.effects:
-        responses = iter(problem.responses(point, effect))
+        answers = iter(responses(problem, point, effect))
         for name, known in parameters(effect).items():
             if known.is_amplitude:
-                prior = problem_prior(problem, next(responses)) or 1.0
+                prior = problem_prior(problem, next(answers)) or 1.0
                 unit = prior * known.scale
             elif known.starts and not known.choices and known.high > known.low:
                 unit = 0.5 * abs(getattr(effect, name)) or 0.1 * known.high
@@ -184,7 +186,7 @@ def slopes(
     columns = [
         [width * column for column in response]
         for width, response in zip(
-            point.widths.tolist(), problem.sensitivities(point), strict=True
+            point.widths.tolist(), sensitivities(problem, point), strict=True
         )
     ]
     here = _vector(point, coordinates)
@@ -197,7 +199,7 @@ def slopes(
         vector[count + index] += step
         there = problem.explanation(_moved(problem, point, coordinates, vector))
         effect = acting[coordinate.effect]
-        columns.append(problem.change(there, base, effect, tracks, step))
+        columns.append(change(problem, there, base, effect, tracks, step))
     return np.concatenate(
         [
             problem.white([column[index] for column in columns], index)

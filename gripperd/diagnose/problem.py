@@ -1,75 +1,26 @@
-"""One recording against one model: residuals and how they answer to every parameter."""
+"""One recording against one model: what it says, and what is left."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gripperd.diagnose.block import Block
 from gripperd.diagnose.constants import NUISANCE, Constant, moved
 from gripperd.diagnose.course import Course
+from gripperd.diagnose.explanation import Explanation
+from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.noise import Noise
-from gripperd.diagnose.stages import (
-    Explanation,
-    passed_on,
-    predictable,
-    predicted,
-    track_of,
-)
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.stages import passed_on, predictable, predicted
+from gripperd.diagnose.track import track_of
 from gripperd.diagnose.usable import usable
 from gripperd.diagnose.whitening import whitened
-from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
-from gripperd.model.parameter import parameters
+from gripperd.model.effect import Signal
 from gripperd.model.track import Array, Track
 
-FREED = 12.0
-"""Prior of a wrong constant, in its stated sigma."""
-
-STEP = 0.25
-"""Step of a difference quotient, in sigma of a constant or scales of an amplitude."""
-
-
-Mask: TypeAlias = NDArray[np.bool_]
-
-
-class Block(NamedTuple):
-    """One signal in one sweep."""
-
-    course: int
-    signal: Signal
-    good: Mask
-    """Samples to explain, shape ``(n,)``."""
-
-
-@dataclass(frozen=True, slots=True)
-class Point:
-    """Where the search stands: constants, and effects added to the model."""
-
-    shifts: Array
-    """Of the constants from nominal, in sigma."""
-    effects: tuple[Effect, ...] = ()
-    freed: frozenset[int] = frozenset()
-    """Constants found to be wrong: their tolerance no longer holds them."""
-
-    @property
-    def widths(self) -> Array:
-        """Prior of each constant, in its stated sigma."""
-        widths = np.ones_like(self.shifts)
-        widths[list(self.freed)] = FREED
-        return widths
-
-    def with_effect(self, effect: Effect) -> "Point":
-        """Put an effect in, in the place of one of its name if there is."""
-        others = tuple(one for one in self.effects if one.name != effect.name)
-        return replace(self, effects=(*others, effect))
-
-    def without(self, name: str) -> "Point":
-        """Take an effect out."""
-        return replace(
-            self, effects=tuple(one for one in self.effects if one.name != name)
-        )
+_NOTHING: Array = np.empty(0)
 
 
 @dataclass(frozen=True)
@@ -210,117 +161,7 @@ class Problem:
         noise = self.noises[self.blocks[index].signal]
         return whitened(np.column_stack(columns), self.times[index], noise)
 
-    def sensitivities(self, point: Point) -> list[list[Array]]:
-        """Change of every block for one sigma of each constant; constants first."""
-        base = self.expected(self.explanation(point))
-        # Constants of one sweep each are moved together: none feels the others.
-        own = [i for i, one in enumerate(self.constants) if one.course is not None]
-        apart = self._slope(point, own, base) if own else []
-        found: list[list[Array]] = []
-        for index, constant in enumerate(self.constants):
-            if constant.course is None:
-                found.append(self._slope(point, [index], base))
-            else:
-                found.append(self._of_course(apart, constant.course))
-        return found
-
-    def _slope(
-        self, point: Point, indices: list[int], base: list[Array]
-    ) -> list[Array]:
-        shifts = point.shifts.copy()
-        shifts[indices] += STEP
-        there = self.explanation(replace(point, shifts=shifts))
-        moved_on = frozenset[Signal]().union(
-            *(self.constants[i].moves for i in indices)
-        )
-        return self._quotient(self.expected(there, moved_on), base, STEP)
-
-    def _of_course(self, columns: list[Array], course: int) -> list[Array]:
-        return [
-            column if block.course == course else zero
-            for column, block, zero in zip(
-                columns, self.blocks, self._zeros, strict=True
-            )
-        ]
-
-    def responses(self, point: Point, effect: Effect) -> list[list[Array]]:
-        """Change of every block for one scale of each amplitude of an effect.
-
-        For an effect that already acts at the point, the slope there; for a new one
-        its response at one scale, so that an effect with a threshold is seen.
-        """
-        here = self.explanation(point)
-        acts = any(one.name == effect.name for one in point.effects)
-        base = self.explanation(point.without(effect.name)) if not acts else here
-        tracks = self.tracks(base)
-        start = self.expected(base, None, tracks)
-        return [
-            self.change(base.with_effect(one), start, one, tracks, size)
-            for one, size in _nudged(effect, acts=acts)
-        ]
-
-    def change(
-        self,
-        there: Explanation,
-        here: list[Array],
-        effect: Effect,
-        tracks: Sequence[Track],
-        step: float,
-    ) -> list[Array]:
-        """Difference quotient of every block when one effect changes.
-
-        Parameters
-        ----------
-        there, here
-            The explanation with the change, and what is expected without.
-        effect
-            What changed.
-        tracks
-            What happened, without the change.
-        step
-            Its size.
-        """
-        # A sensor changes what is thought to have happened; nothing else does.
-        known = None if effect.stage is Stage.SENSOR else tracks
-        expected = self.expected(there, moves(effect), known)
-        return self._quotient(expected, here, step)
-
-    def _quotient(
-        self, there: list[Array], here: list[Array], step: float
-    ) -> list[Array]:
-        """Difference quotient block by block; 0 where nothing was asked."""
-        return [
-            (a - b) / step if a.size else zero
-            for a, b, zero in zip(there, here, self._zeros, strict=True)
-        ]
-
     @cached_property
-    def _zeros(self) -> list[Array]:
+    def zeros(self) -> list[Array]:
+        """No change, block by block."""
         return [np.zeros(int(block.good.sum())) for block in self.blocks]
-
-
-_NOTHING: Array = np.empty(0)
-
-
-def moves(effect: Effect) -> frozenset[Signal] | None:
-    """Signals an effect changes; all for a sensor."""
-    if effect.stage is Stage.SENSOR:
-        return None
-    stretches = acts_in_gripper(effect) and effect.hidden_contraction(1.0) != 0
-    return frozenset({effect.signal, Signal.FORCE} if stretches else {effect.signal})
-
-
-def _nudged(effect: Effect, *, acts: bool) -> Iterator[tuple[Effect, float]]:
-    """Give the effect with one amplitude moved at a time, and by how many scales."""
-    known = parameters(effect)
-    amplitudes = [name for name, one in known.items() if one.is_amplitude]
-    if not amplitudes and not acts:
-        yield effect, 1.0
-    for name in amplitudes:
-        scale = known[name].scale
-        if acts:
-            value = getattr(effect, name) + STEP * scale
-            yield replace(effect, **{name: value}), STEP
-        else:
-            silent = dict.fromkeys(amplitudes, 0.0)
-            yield replace(effect, **(silent | {name: scale})), 1.0

@@ -11,9 +11,10 @@ import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.design import design
+from gripperd.diagnose.explanation import AtRest
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Point, Problem
-from gripperd.diagnose.stages import AtRest
+from gripperd.diagnose.problem import Problem
 from gripperd.model.effect import Signal
 
 DECIDED = 5.0

@@ -7,15 +7,18 @@ import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.design import Member, design
+from gripperd.diagnose.found import Found
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Point, Problem
-from gripperd.diagnose.search import Found, Rival, added
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rival import Rival, added
 
 EXCHANGES = 2
 CHALLENGERS = 4
 """Rivals of each effect that are fitted in full."""
-SURE = 3.0
-"""A rival behind by less could be true: odds of 20 to 1. [nat]"""
+SURE = 2.0
+"""A rival behind by less could be true: a true difference of so much has a standard
+error of root 2 of it, which is as much again. [nat]"""
 MISSHAPED = 0.06
 """Share of the first gap within which a difference of misfit says only that neither
 formula is that of nature. [-]"""

@@ -6,6 +6,10 @@ from gripperd.model.compiled import compiled
 from gripperd.model.memory import begin, stop
 from gripperd.model.track import Array
 
+TRAVEL = 1.5e-3
+"""Contraction that must be undone before a travel counts as reversed. [-]"""
+STILL = 4e-3
+"""A sweep within this range of contraction has no travel. [-]"""
 STUCK = 0.06
 """Half the way back, as a share of the range of the load, in which joints stick. [-]"""
 STEADY = 0.01

@@ -1,18 +1,14 @@
 """Samples of a sweep that say something about a stage."""
 
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
 from gripperd.diagnose.course import Course, is_table
+from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.stages import INPUTS
 from gripperd.diagnose.travel import leaning
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-
-Mask: TypeAlias = NDArray[np.bool_]
 
 TRANSIENT = 0.06
 """A command that moves by more than this share of the span in one sample is a step."""

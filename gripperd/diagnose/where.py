@@ -13,8 +13,9 @@ from math import erfc
 import numpy as np
 from numpy.typing import NDArray
 
+from gripperd.diagnose.block import Block
 from gripperd.diagnose.course import Course
-from gripperd.diagnose.problem import Block, Problem
+from gripperd.diagnose.problem import Problem
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 

@@ -1,69 +1,149 @@
 """One gripper on a bus: a valve current out, its sensors' currents in."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import Protocol, TypeAlias, cast
 
-from gripperd.drivers.bus import Bus
-from gripperd.errors import DeviceRefused
-from gripperd.protocol.live_zero import LoopScale
-from gripperd.protocol.modbus import Read, Refusal, Table, Write
-from gripperd.protocol.modules import InputModule, OutputModule
+from gripperd.drivers.ascii_output import AsciiOutput, ItvOutput
+from gripperd.drivers.bus import Bus, ModbusBus
+from gripperd.drivers.facts import RigFacts, input_facts, output_facts, warnings
+from gripperd.drivers.inputs import AsciiInputs, ModbusInputs
+from gripperd.drivers.modbus_output import ModbusOutput
+from gripperd.drivers.wiring import (
+    InputWiring,
+    OutputWiring,
+    SensorWiring,
+    WatchdogSettings,
+)
+from gripperd.errors import (
+    DeviceRefused,
+    InputError,
+    LinkError,
+    ModuleMismatch,
+    WatchdogTripped,
+)
+from gripperd.protocol import itv
+from gripperd.protocol.dcon import Ask
+from gripperd.protocol.modules import ModuleDialect
 from gripperd.signals import Measurement, Reading
 
-PASSING = frozenset({Refusal.ACKNOWLEDGE, Refusal.BUSY, Refusal.NO_RESPONSE})
-"""Refusals that may be over a moment later."""
+__all__ = [
+    "AnalogRig",
+    "InputWiring",
+    "OutputWiring",
+    "SensorWiring",
+    "WatchdogSettings",
+]
+
+AnyBus: TypeAlias = ModbusBus | Bus[Ask, str] | Bus[itv.Request, int]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OutputWiring:
-    """Where the valve is connected."""
+class Output(Protocol):
+    """The channel that drives the valve."""
 
-    module: OutputModule
-    unit: int
-    channel: int
+    @property
+    def range_verified(self) -> bool:
+        """Whether the module has confirmed its range."""
+        ...
+
+    @property
+    def armed(self) -> bool:
+        """Whether its watchdog is armed."""
+        ...
+
+    async def attach(self) -> None:
+        """Check how the module is set up, and arm what the settings ask for."""
+        ...
+
+    async def read(self, now: float) -> Reading:
+        """Read the current back. [A]."""
+        ...
+
+    async def write(self, current: float, *, urgent: bool) -> None:
+        """Set the current. [A]."""
+        ...
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SensorWiring:
-    """Where one sensor is connected, and how its current reads."""
+class Inputs(Protocol):
+    """The sensors."""
 
-    channel: int
-    scale: LoopScale
+    @property
+    def range_verified(self) -> bool:
+        """Whether the module has confirmed its ranges."""
+        ...
 
+    async def attach(self) -> None:
+        """Check how the module is set up."""
+        ...
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class InputWiring:
-    """Where the sensors are connected; the keys are names in `Measurement`."""
-
-    module: InputModule
-    unit: int
-    sensors: Mapping[str, SensorWiring]
+    async def read(self) -> Mapping[str, Reading]:
+        """Read every sensor."""
+        ...
 
 
 class AnalogRig:
-    """Valve and sensors of one gripper."""
+    """Valve and sensors of one gripper.
+
+    The modules are looked at before the first sample, and again after every time that
+    no trustworthy answer came: they may have been switched off meanwhile.
+
+    Parameters
+    ----------
+    bus
+        What both modules are on.
+    output, inputs
+        What is connected where.
+    """
 
     def __init__(
-        self, bus: Bus, output: OutputWiring, inputs: InputWiring | None
+        self, bus: AnyBus, output: OutputWiring, inputs: InputWiring | None
     ) -> None:
-        self._bus = bus
-        self._output = output
-        self._inputs = inputs
-        self._register = output.module.register(output.channel)
-        self._count = 0
+        fitted = inputs if inputs and inputs.sensors else None
+        self.warnings = warnings(output, fitted)
+        """What a person should hear at every start."""
+        self._output_wiring, self._input_wiring = output, fitted
+        self._output = _output_on(bus, output)
+        self._inputs = _inputs_on(bus, fitted) if fitted else None
+        self._attached = self._inputs_attached = False
+        self._fault: LinkError | None = None
+
+    @property
+    def facts(self) -> RigFacts:
+        """What is known of the modules; what they confirmed holds until a failure."""
+        wiring, inputs = self._input_wiring, self._inputs
+        sensed = self._inputs_attached
+        return RigFacts(
+            output=output_facts(
+                self._output_wiring,
+                range_verified=self._attached and self._output.range_verified,
+                armed=self._attached and self._output.armed,
+            ),
+            input=input_facts(wiring, range_verified=sensed and inputs.range_verified)
+            if wiring and inputs
+            else None,
+        )
 
     async def read(self, now: float) -> Measurement:
         """Sample the commanded current and every sensor.
 
         Raises
         ------
+        ModuleMismatch
+            The output module is set up otherwise than the settings say. Where the
+            input module is, its sensors are bad.
+        WatchdogTripped
+            The output is at its safe value until a person clears it.
         LinkError
             When no trustworthy answer came.
         """
-        unit = self._output.unit
-        (count,) = await self._look(Read(unit, Table.HOLDING, self._register))
-        current = Reading(self._output.module.decode(count))
-        sensors = await self._sensors()
+        try:
+            if not self._attached:
+                await self._output.attach()
+            current = await self._output.read(now)
+            sensors = await self._sensors()
+        except LinkError as error:
+            self._doubt(error)
+            raise
+        self._attached, self._fault = True, None
         return Measurement(time=now, current=current, **sensors)
 
     async def write(self, current: float, *, urgent: bool = False) -> None:
@@ -73,37 +153,59 @@ class AnalogRig:
         ------
         InputError
             Outside what the module can drive.
+        ModuleMismatch, WatchdogTripped
+            What the last sample has found stands against driving it.
         LinkError
             When no trustworthy confirmation came; it may have arrived or not.
         """
-        self._count = self._output.module.encode(current)
-        await self._bus.ask(self._newest, urgent=urgent)
-
-    def _newest(self) -> Write:
-        """The last current asked for: a write that waited must not undo a later one."""
-        return Write(self._output.unit, self._register, (self._count,))
-
-    async def _look(self, request: Read) -> tuple[int, ...]:
-        """Read, and once more from a busy device; a write is never repeated."""
+        if self._fault is not None:
+            raise self._fault
         try:
-            return await self._bus.ask(request)
-        except DeviceRefused as error:
-            if error.exception_code not in PASSING:
-                raise
-            return await self._bus.ask(request)
+            await self._output.write(current, urgent=urgent)
+        except LinkError as error:
+            self._doubt(error)
+            raise
 
-    async def _sensors(self) -> dict[str, Reading]:
-        wiring = self._inputs
-        if wiring is None or not wiring.sensors:
+    def _doubt(self, error: LinkError) -> None:
+        """Look at the modules again before the next sample is believed."""
+        self._attached = self._inputs_attached = False
+        if isinstance(error, ModuleMismatch | WatchdogTripped):
+            self._fault = error
+
+    async def _sensors(self) -> Mapping[str, Reading]:
+        if self._inputs is None or self._input_wiring is None:
             return {}
-        highest = max(sensor.channel for sensor in wiring.sensors.values())
-        request = Read(wiring.unit, Table.INPUT, wiring.module.address, highest + 1)
         try:
-            counts = await self._look(request)
-        except DeviceRefused as error:
+            if not self._inputs_attached:
+                await self._inputs.attach()
+                self._inputs_attached = True
+            return await self._inputs.read()
+        except (DeviceRefused, ModuleMismatch) as error:
             # The line is sound: without its sensors the valve can still be driven.
-            return {name: Reading.bad(str(error)) for name in wiring.sensors}
-        return {
-            name: sensor.scale.reading(wiring.module.decode(counts[sensor.channel]))
-            for name, sensor in wiring.sensors.items()
-        }
+            self._inputs_attached = False
+            bad = Reading.bad(str(error))
+            return dict.fromkeys(self._input_wiring.sensors, bad)
+
+
+def _output_on(bus: AnyBus, wiring: OutputWiring) -> Output:
+    module, dialect = wiring.module, wiring.dialect
+    if dialect is ModuleDialect.ITV and module.itv:
+        return ItvOutput(cast("Bus[itv.Request, int]", bus), wiring)
+    if dialect is ModuleDialect.MODBUS and module.modbus:
+        return ModbusOutput(cast("ModbusBus", bus), wiring, module.modbus)
+    if dialect in module.phrases:
+        return AsciiOutput(cast("Bus[Ask, str]", bus), wiring, module.phrases[dialect])
+    raise _unspoken(module.name, dialect)
+
+
+def _inputs_on(bus: AnyBus, wiring: InputWiring) -> Inputs:
+    module, dialect = wiring.module, wiring.dialect
+    if dialect is ModuleDialect.MODBUS and module.modbus:
+        return ModbusInputs(cast("ModbusBus", bus), wiring, module.modbus)
+    if dialect in module.phrases:
+        return AsciiInputs(cast("Bus[Ask, str]", bus), wiring, module.phrases[dialect])
+    raise _unspoken(module.name, dialect)
+
+
+def _unspoken(module: str, dialect: ModuleDialect) -> InputError:
+    return InputError(f"{module} does not speak {dialect}", key="dialect")

@@ -10,6 +10,7 @@ from gripperd.bench.object import BenchObject
 from gripperd.bench.placed import ObjectState
 from gripperd.bench.rig import Rig
 from gripperd.bench.server import BenchServer
+from gripperd.bench.wire_faults import WireFault
 from gripperd.link.frames import decode
 
 
@@ -37,7 +38,13 @@ class BenchState:
     placed: PlacedState | None
     faults: BenchFaults
     address: str
-    """Where its Modbus modules listen."""
+    """Where its modules listen."""
+    line: str
+    """What they speak there."""
+    wire_faults: tuple[WireFault, ...]
+    """Those that no request has met yet."""
+    wire_fault_chance: float
+    """Probability of one at random once none waits. [-]"""
 
 
 class ReadBench(msgspec.Struct, frozen=True, tag=True):
@@ -60,7 +67,20 @@ class SetFaults(msgspec.Struct, frozen=True, tag=True):
     faults: BenchFaults
 
 
-Request: TypeAlias = ReadBench | PlaceObject | RemoveObject | SetFaults
+class SetWireFaults(msgspec.Struct, frozen=True, tag=True):
+    """Say what the next requests on the wire meet, in place of what was said."""
+
+    faults: tuple[WireFault, ...]
+    chance: float = 0.0
+
+
+class MendWire(msgspec.Struct, frozen=True, tag=True):
+    """Let no request meet a fault any more, and join a wire that was cut."""
+
+
+Request: TypeAlias = (
+    ReadBench | PlaceObject | RemoveObject | SetFaults | SetWireFaults | MendWire
+)
 
 
 class BenchDesk:
@@ -84,6 +104,11 @@ class BenchDesk:
                 plant.remove()
             case SetFaults(faults):
                 plant.faults = faults
+            case SetWireFaults(waiting, chance):
+                self._server.faults.set(waiting, chance)
+            case MendWire():
+                self._server.faults.set(())
+                self._server.modules.mend()
             case ReadBench():
                 pass
         return self._state()
@@ -105,4 +130,7 @@ class BenchDesk:
             placed=placed,
             faults=plant.faults,
             address=self._server.address,
+            line=self._server.speaker.name,
+            wire_faults=tuple(self._server.faults.waiting),
+            wire_fault_chance=self._server.faults.chance,
         )

@@ -15,6 +15,7 @@ from gripperd.control.task import Task
 from gripperd.control.timing import Timing
 from gripperd.errors import NotFound, Refused
 from gripperd.link import faults, lease
+from gripperd.link.buses import BusDesk, ReadBuses, ReadTraffic
 from gripperd.link.frames import decode
 from gripperd.link.journal import Page, ReadJournal, page
 from gripperd.link.model import ModelMessage, chain_of
@@ -49,6 +50,10 @@ class Submitted(msgspec.Struct, frozen=True):
 
 class ReadOverview(msgspec.Struct, frozen=True, tag=True):
     """Ask for the :class:`Overview`."""
+
+
+class ReadModules(msgspec.Struct, frozen=True, tag=True):
+    """Ask for the :class:`RigFacts` of every gripper, by its name."""
 
 
 class ReadState(msgspec.Struct, frozen=True, tag=True):
@@ -134,6 +139,9 @@ Request: TypeAlias = (
     | Stop
     | Enable
     | Disable
+    | ReadBuses
+    | ReadTraffic
+    | ReadModules
     | UseModel
     | ReadJournal
     | lease.Request
@@ -142,17 +150,19 @@ Request: TypeAlias = (
 
 
 class ControlDesk:
-    """Answers the service on behalf of the loops."""
+    """Answers the service on behalf of the loops and their buses."""
 
     def __init__(
         self,
         loops: dict[str, Loop],
+        buses: BusDesk | None = None,
         *,
         real_time: bool,
         started_at: float,
         unlogged: Callable[[], int] = lambda: 0,
     ) -> None:
         self._loops = loops
+        self._buses = buses or BusDesk({})
         self._real_time = real_time
         self._started_at = started_at
         self._unlogged = unlogged
@@ -162,6 +172,10 @@ class ControlDesk:
         request: Request = decode(body, Request)  # type: ignore[arg-type]
         if isinstance(request, ReadOverview):
             return self._overview()
+        if isinstance(request, ReadBuses | ReadTraffic):
+            return self._buses.respond(request)
+        if isinstance(request, ReadModules):
+            return {name: loop.facts for name, loop in self._loops.items()}
         if isinstance(request, UseModel):
             loops = [self._loop(name) for name in request.grippers]
             swap([loop.gripper for loop in loops], chain_of(request.model))

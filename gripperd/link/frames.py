@@ -11,6 +11,18 @@ LENGTH = 4
 LONGEST = 1 << 20
 """No message comes near it; a longer one is not ours. [octets]"""
 
+LINK_ERRORS = frozenset(
+    {
+        errors.LinkError,
+        errors.LinkLost,
+        errors.ReplyTimeout,
+        errors.BadReply,
+        errors.LocalEcho,
+        errors.ModuleMismatch,
+    }
+)
+"""Those that say nothing but their message."""
+
 T = TypeVar("T")
 
 _encoder = msgspec.msgpack.Encoder()
@@ -107,14 +119,13 @@ def raised(failed: Failed) -> errors.GripperdError:
     if kind in {errors.InputError, errors.DomainError, errors.NotFound}:
         error: errors.GripperdError = kind(failed.message, key=failed.key)
         return error
-    if kind in {errors.LinkLost, errors.ReplyTimeout, errors.BadReply}:
+    if kind in LINK_ERRORS:
         lost: errors.GripperdError = kind(failed.message)
         return lost
-    if kind is errors.DeviceRefused and failed.exception_code is not None:
-        return errors.DeviceRefused(
+    if kind in {errors.DeviceRefused, errors.WatchdogTripped}:
+        refused: errors.GripperdError = kind(
             failed.message, exception_code=failed.exception_code
         )
-    if kind is errors.LinkError:
-        return errors.LinkError(failed.message)
+        return refused
     # Nothing that was raised on purpose: asking again would not help.
     return errors.GripperdError(failed.message)

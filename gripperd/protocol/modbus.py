@@ -1,45 +1,42 @@
-"""Modbus TCP frames, both halves: requests and the replies that answer them.
-
-pymodbus builds and parses the PDUs and the MBAP header; it is imported nowhere else.
-What it accepts without a word, a wrong echo, a short reply, is checked here.
+"""What can be asked of a Modbus device, whatever line it is on.
 
 References
 ----------
 .. [1] MODBUS Application Protocol Specification V1.1b3.
-.. [2] MODBUS Messaging on TCP/IP Implementation Guide V1.0b, section 3.1.3.
 """
 
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
 
-from pymodbus.framer.socket import FramerSocket
-from pymodbus.pdu import DecodePDU, ExceptionResponse, ModbusPDU
-from pymodbus.pdu.register_message import (
-    ReadHoldingRegistersRequest,
-    ReadHoldingRegistersResponse,
-    ReadInputRegistersRequest,
-    ReadInputRegistersResponse,
-    WriteMultipleRegistersRequest,
-    WriteMultipleRegistersResponse,
-    WriteSingleRegisterRequest,
-    WriteSingleRegisterResponse,
-)
+from gripperd.errors import InputError
 
-from gripperd.errors import BadReply, DeviceRefused
+WRITE_COIL = 5
+WRITE_REGISTER = 6
+WRITE_REGISTERS = 16
+"""Function codes of the writes ([1], sections 6.5, 6.6 and 6.12)."""
 
-HEADER = 7
-"""Octets of the MBAP header: transaction, protocol, length, unit."""
-
-LONGEST_FRAME = 260
-"""Octets of the longest frame, header included ([2], section 4.3.2)."""
+MOST_WRITTEN = 123
+"""Registers that one request can write ([1], section 6.12)."""
 
 
 class Table(IntEnum):
-    """Which registers are read; the value is the function code ([1], section 6)."""
+    """What is read; the value is the function code ([1], sections 6.1 to 6.4)."""
 
+    COILS = 1
+    DISCRETE = 2
     HOLDING = 3
     INPUT = 4
+
+    @property
+    def of_bits(self) -> bool:
+        """Whether it holds bits, not registers."""
+        return self <= Table.DISCRETE
+
+    @property
+    def most(self) -> int:
+        """Bits or registers that one request can read."""
+        return 2000 if self.of_bits else 125
 
 
 class Refusal(IntEnum):
@@ -58,28 +55,75 @@ class Refusal(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Read:
-    """Read consecutive registers, at most 125."""
+    """Read consecutive registers, at most 125, or bits, at most 2000.
+
+    Raises
+    ------
+    InputError
+        A number does not fit in its field of the request.
+    """
 
     unit: int
     table: Table
     address: int
     count: int = 1
 
+    def __post_init__(self) -> None:
+        _check(self.unit, self.address)
+        if not 1 <= self.count <= self.table.most:
+            message = (
+                f"{self.count} {self.table.name.lower()} cannot be read in one request:"
+                f" 1 to {self.table.most} can"
+            )
+            raise InputError(message, key="count")
+
+    @property
+    def function(self) -> int:
+        """Function code."""
+        return int(self.table)
+
     def __str__(self) -> str:
         """As a person would say it."""
-        return (
-            f"read {self.count} {self.table.name.lower()} register(s)"
-            f" at {self.address} of unit {self.unit}"
-        )
+        what = self.table.name.lower()
+        what = what if self.table.of_bits else f"{what} register(s)"
+        return f"read {self.count} {what} at {self.address} of unit {self.unit}"
 
 
 @dataclass(frozen=True, slots=True)
 class Write:
-    """Write consecutive holding registers: function 6 for one, 16 for more."""
+    """Write consecutive holding registers, at most 123.
+
+    Raises
+    ------
+    InputError
+        A number does not fit in its field of the request.
+    """
 
     unit: int
     address: int
     values: tuple[int, ...]
+    multiple: bool = False
+    """Function 16 even for one register: its reply differs from the request, which
+    that of function 6 does not; several registers always take function 16."""
+
+    def __post_init__(self) -> None:
+        _check(self.unit, self.address)
+        if not 1 <= len(self.values) <= MOST_WRITTEN:
+            message = (
+                f"{len(self.values)} registers cannot be written in one request:"
+                f" 1 to {MOST_WRITTEN} can"
+            )
+            raise InputError(message, key="values")
+        for value in self.values:
+            if not 0 <= value <= 0xFFFF:
+                message = f"{value} does not fit in a register: 0 to 65535 does"
+                raise InputError(message, key="values")
+
+    @property
+    def function(self) -> int:
+        """Function code."""
+        several = self.multiple or len(self.values) > 1
+        return WRITE_REGISTERS if several else WRITE_REGISTER
 
     def __str__(self) -> str:
         """As a person would say it."""
@@ -87,159 +131,41 @@ class Write:
         return f"write {values} to holding register {self.address} of unit {self.unit}"
 
 
-Request: TypeAlias = Read | Write
-
-_requests = FramerSocket(DecodePDU(is_server=True))
-_replies = FramerSocket(DecodePDU(is_server=False))
-
-
-def frame_length(buffer: bytes | bytearray) -> int | None:
-    """Octets of the first frame in a buffer, None while its header is incomplete.
+@dataclass(frozen=True, slots=True)
+class WriteCoil:
+    """Set or clear one coil.
 
     Raises
     ------
-    BadReply
-        The header is not one of Modbus TCP; the stream cannot be followed further.
+    InputError
+        A number does not fit in its field of the request.
     """
-    if len(buffer) < HEADER:
-        return None
-    protocol = int.from_bytes(buffer[2:4], "big")
-    length = int.from_bytes(buffer[4:6], "big") + 6
-    if protocol != 0 or not HEADER < length <= LONGEST_FRAME:
-        message = f"not a Modbus TCP header: {bytes(buffer[:HEADER]).hex(' ')}"
-        raise BadReply(message)
-    return length
+
+    unit: int
+    address: int
+    on: bool
+
+    def __post_init__(self) -> None:
+        _check(self.unit, self.address)
+
+    @property
+    def function(self) -> int:
+        """Function code."""
+        return WRITE_COIL
+
+    def __str__(self) -> str:
+        """As a person would say it."""
+        verb = "set" if self.on else "clear"
+        return f"{verb} coil {self.address} of unit {self.unit}"
 
 
-def transaction_of(frame: bytes) -> int:
-    """Transaction identifier of a complete frame."""
-    return int.from_bytes(frame[:2], "big")
+Request: TypeAlias = Read | Write | WriteCoil
 
 
-def encode_request(request: Request, transaction: int) -> bytes:
-    """Frame of a request."""
-    pdu: ModbusPDU
-    match request:
-        case Read(unit, Table.HOLDING, address, count):
-            pdu = ReadHoldingRegistersRequest(dev_id=unit, address=address, count=count)
-        case Read(unit, _, address, count):
-            pdu = ReadInputRegistersRequest(dev_id=unit, address=address, count=count)
-        case Write(unit, address, (value,)):
-            pdu = WriteSingleRegisterRequest(
-                dev_id=unit, address=address, registers=[value]
-            )
-        case Write(unit, address, values):
-            pdu = WriteMultipleRegistersRequest(
-                dev_id=unit, address=address, registers=list(values)
-            )
-    pdu.transaction_id = transaction
-    return _requests.buildFrame(pdu)
-
-
-def decode_reply(request: Request, transaction: int, frame: bytes) -> tuple[int, ...]:
-    """Believe a reply only if it answers the request.
-
-    Parameters
-    ----------
-    request, transaction
-        What was asked.
-    frame
-        One complete frame, as measured by :func:`frame_length`.
-
-    Returns
-    -------
-    The registers read, or written.
-
-    Raises
-    ------
-    BadReply
-        Other transaction, unit, function, length, address or echo.
-    DeviceRefused
-        A well-formed exception reply.
-    """
-    wanted = encode_request(request, transaction)
-    if frame[:2] != wanted[:2] or frame[6] != wanted[6]:
-        raise _bad(request, frame, "it belongs to another transaction or unit")
-    if frame[7] == wanted[7] | 0x80 and len(frame) == HEADER + 2:
-        raise _refused(request, frame[8])
-    if frame[7] != wanted[7]:
-        raise _bad(request, frame, f"it answers function {frame[7]}")
-    if isinstance(request, Write):
-        # Function 6 echoes the request; function 16 its address and count.
-        echo = (
-            wanted if len(request.values) == 1 else wanted[:4] + b"\0\6" + wanted[6:12]
-        )
-        if frame != echo:
-            raise _bad(request, frame, "its echo differs")
-        return request.values
-    if len(frame) != HEADER + 2 + 2 * request.count or frame[8] != 2 * request.count:
-        raise _bad(request, frame, "it holds another number of registers")
-    _, pdu = _replies.handleFrame(frame, request.unit, transaction)
-    if pdu is None:
-        raise _bad(request, frame, "it cannot be decoded")
-    return tuple(pdu.registers)
-
-
-def decode_request(frame: bytes) -> Request | Refusal:
-    """What a client asks of a server; :class:`Refusal` where it asks too much."""
-    function = frame[7]
-    if function not in {Table.HOLDING, Table.INPUT, 6, 16}:
-        return Refusal.ILLEGAL_FUNCTION
-    if len(frame) < HEADER + 5 or (function != 16 and len(frame) != HEADER + 5):
-        return Refusal.ILLEGAL_VALUE
-    unit = frame[6]
-    address = int.from_bytes(frame[8:10], "big")
-    pdu = _requests.decoder.decode(frame[7:])
-    if function == 6 and pdu is not None:
-        return Write(unit, address, (pdu.registers[0],))
-    count = int.from_bytes(frame[10:12], "big")
-    if pdu is None or not 1 <= count <= 125:
-        return Refusal.ILLEGAL_VALUE
-    if function != 16:
-        return Read(unit, Table(function), address, count)
-    if len(frame) != HEADER + 6 + 2 * count or frame[12] != 2 * count:
-        return Refusal.ILLEGAL_VALUE
-    return Write(unit, address, tuple(pdu.registers))
-
-
-def encode_reply(
-    request: Request, transaction: int, values: tuple[int, ...] = ()
-) -> bytes:
-    """Frame that answers a request; ``values`` are the registers of a read."""
-    pdu: ModbusPDU
-    registers = list(values)
-    match request:
-        case Read(unit, Table.HOLDING):
-            pdu = ReadHoldingRegistersResponse(dev_id=unit, registers=registers)
-        case Read(unit, _):
-            pdu = ReadInputRegistersResponse(dev_id=unit, registers=registers)
-        case Write(unit, address, (value,)):
-            pdu = WriteSingleRegisterResponse(
-                dev_id=unit, address=address, registers=[value]
-            )
-        case Write(unit, address, written):
-            pdu = WriteMultipleRegistersResponse(
-                dev_id=unit, address=address, count=len(written)
-            )
-    pdu.transaction_id = transaction
-    return _replies.buildFrame(pdu)
-
-
-def encode_refusal(frame: bytes, refusal: Refusal) -> bytes:
-    """Exception reply to the request in a frame."""
-    pdu = ExceptionResponse(frame[7], refusal)
-    pdu.dev_id, pdu.transaction_id = frame[6], transaction_of(frame)
-    return _replies.buildFrame(pdu)
-
-
-def _bad(request: Request, frame: bytes, why: str) -> BadReply:
-    return BadReply(f"a reply to '{request}' is not believed: {why} ({frame.hex(' ')})")
-
-
-def _refused(request: Request, code: int) -> DeviceRefused:
-    try:
-        word = Refusal(code).name.lower().replace("_", " ")
-    except ValueError:
-        word = "an exception outside the standard"
-    message = f"the device refuses to {request}: {word} (exception {code})"
-    return DeviceRefused(message, exception_code=code)
+def _check(unit: int, address: int) -> None:
+    if not 0 <= unit <= 0xFF:
+        message = f"unit {unit} is no Modbus unit: 0 to 255 is"
+        raise InputError(message, key="unit")
+    if not 0 <= address <= 0xFFFF:
+        message = f"address {address} is no Modbus address: 0 to 65535 is"
+        raise InputError(message, key="address")

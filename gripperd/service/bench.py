@@ -16,19 +16,29 @@ from gripperd.config.section import Section
 from gripperd.errors import InputError, NotFound
 from gripperd.link.bench import (
     BenchState,
+    MendWire,
     PlacedState,
     PlaceObject,
     ReadBench,
     RemoveObject,
+    Request,
     SetFaults,
 )
 from gripperd.service.body import router
 from gripperd.service.context import Context, Daemon
 from gripperd.service.rendering import GIVEN, Document, known, to
 from gripperd.service.target import Millimetres
+from gripperd.service.wire_faults import (
+    WireFaultsDocument,
+    WireFaultsRequest,
+    wire_faults,
+)
 from gripperd.units import SI_PER_UNIT, split
 
 routes = router("bench")
+
+MODBUS_TCP = "modbus_tcp"
+"""The line that has a host and a port."""
 
 Broken = Annotated[Channel, Field(strict=False)]
 Opened = Annotated[Contact, Field(strict=False)]
@@ -117,7 +127,12 @@ class BenchDocument(Document):
     force_N: float = Field(description="Grip force per jaw.")
     object: ObjectDocument | None
     faults: FaultsDocument
-    modbus_tcp: str = Field(description="Where its modules listen.")
+    wire_faults: WireFaultsDocument
+    modbus_tcp: str | None = Field(
+        description="Where its modules listen; null where they are on a serial line."
+    )
+    line: str = Field(description="What they speak.")
+    address: str = Field(description="Where they speak it.")
 
 
 @routes.get("/bench")
@@ -167,9 +182,19 @@ async def mend(daemon: Daemon) -> BenchDocument:
     return await _asked(daemon, SetFaults(HEALTHY))
 
 
-async def _asked(
-    daemon: Context, request: ReadBench | PlaceObject | RemoveObject | SetFaults
-) -> BenchDocument:
+@routes.put("/bench/wire-faults")
+async def set_wire_faults(daemon: Daemon, given: WireFaultsRequest) -> BenchDocument:
+    """Say what the next requests on the wire meet, in place of what was said."""
+    return await _asked(daemon, given.request)
+
+
+@routes.delete("/bench/wire-faults")
+async def mend_wire(daemon: Daemon) -> BenchDocument:
+    """Let every request go well, and join a wire that was cut."""
+    return await _asked(daemon, MendWire())
+
+
+async def _asked(daemon: Context, request: Request) -> BenchDocument:
     return _document(await daemon.simulated.ask(request, BenchState))
 
 
@@ -211,7 +236,10 @@ def _document(state: BenchState) -> BenchDocument:
         force_N=to("N", state.grip),
         object=_placed(state.placed) if state.placed else None,
         faults=_faults(state.faults),
-        modbus_tcp=state.address,
+        wire_faults=wire_faults(state),
+        modbus_tcp=state.address if state.line == MODBUS_TCP else None,
+        line=state.line,
+        address=state.address,
     )
 
 

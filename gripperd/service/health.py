@@ -10,10 +10,14 @@ from starlette.responses import Response
 
 from gripperd.config import FailMode
 from gripperd.control.states import Machine
+from gripperd.drivers.facts import RigFacts, warnings
 from gripperd.errors import LinkError
-from gripperd.link.control import Overview, ReadOverview
+from gripperd.link.buses import BusFigures, ReadBuses
+from gripperd.link.control import Overview, ReadModules, ReadOverview
 from gripperd.service.body import router
+from gripperd.service.buses import BusDocument, bus_document
 from gripperd.service.context import Context, Daemon
+from gripperd.service.modules import RigDocument, rig_document
 from gripperd.service.problems import ProblemResponse, problem
 from gripperd.service.rendering import Document, optional, timestamp
 from gripperd.service.timing_documents import TimingDocument, timing_document
@@ -23,10 +27,6 @@ OVERVIEW_WITHIN = 1.0
 NO_SAFETY_FUNCTION = (
     "gripperd is not a safety function: protect people by other means, such as an"
     " enable input on the valve's supply"
-)
-NO_WATCHDOG = (
-    "{name}: the output module keeps its last current when this host dies; it has no"
-    " watchdog"
 )
 FAILS_OPEN = "{name}: without power or air the muscle vents and the object drops"
 SKIPPED = "a saved profile is not there: {complaint}"
@@ -64,6 +64,10 @@ class About(Document):
     timing: Mapping[str, TimingDocument] = Field(
         description="How punctual the control loop of each gripper is."
     )
+    buses: tuple[BusDocument, ...] = Field(description="Empty while unknown.")
+    modules: Mapping[str, RigDocument] = Field(
+        description="By gripper; empty while unknown."
+    )
     warnings: tuple[str, ...]
 
 
@@ -100,9 +104,13 @@ async def info(daemon: Daemon) -> About:
     """Version, mode, models, and what to be warned of."""
     try:
         overview = await daemon.control.ask(ReadOverview(), Overview, OVERVIEW_WITHIN)
+        buses = await daemon.control.ask(ReadBuses(), list[BusFigures], OVERVIEW_WITHIN)
+        rigs = await daemon.control.ask(
+            ReadModules(), dict[str, RigFacts], OVERVIEW_WITHIN
+        )
         control = "up"
     except LinkError as error:
-        overview, control = None, str(error)
+        overview, buses, rigs, control = None, [], {}, str(error)
     grippers = {
         name: await daemon.up_to_date(each) for name, each in daemon.fleet.items()
     }
@@ -117,6 +125,8 @@ async def info(daemon: Daemon) -> About:
         real_time=overview.real_time if overview else None,
         overruns=overview.overruns if overview else None,
         timing=_timing(overview),
+        buses=tuple(map(bus_document, buses)),
+        modules={name: rig_document(facts) for name, facts in rigs.items()},
         warnings=tuple(_warnings(daemon, overview)),
     )
 
@@ -129,7 +139,8 @@ def _timing(overview: Overview | None) -> Mapping[str, TimingDocument]:
 def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
     yield NO_SAFETY_FUNCTION
     for name, gripper in daemon.fleet.items():
-        yield NO_WATCHDOG.format(name=name)
+        for said in warnings(gripper.output, gripper.input):
+            yield f"{name}: {said}"
         if gripper.fail_mode is FailMode.VENT:
             yield FAILS_OPEN.format(name=name)
     archive = daemon.past.archive
@@ -139,7 +150,12 @@ def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
         yield DAMAGED.format(records=", ".join(archive.damaged))
     for complaint in daemon.library.skipped:
         yield SKIPPED.format(complaint=complaint)
-    if overview is not None and not overview.real_time:
+    if overview is not None:
+        yield from _of_control(overview)
+
+
+def _of_control(overview: Overview) -> Iterator[str]:
+    if not overview.real_time:
         yield NO_REAL_TIME
-    if overview is not None and overview.unlogged:
+    if overview.unlogged:
         yield UNLOGGED.format(count=overview.unlogged)

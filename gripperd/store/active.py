@@ -5,7 +5,7 @@ from math import isfinite
 from pathlib import Path
 
 from gripperd.config import Complaint, GripperSettings, ModelFile, Settings
-from gripperd.config.wiring import check_driven
+from gripperd.config.range_check import check_driven
 from gripperd.errors import ConfigError, DomainError
 from gripperd.model import Chain
 from gripperd.store.versions import ACTIVE, Versions
@@ -49,7 +49,7 @@ def with_model(gripper: GripperSettings, model: ModelFile) -> GripperSettings:
     """
     chain = model.chain()
     try:
-        check_driven(chain.regulator, gripper.output.module)
+        check_driven(chain.regulator, gripper.output.module, gripper.output.range)
         _check_closes(chain)
     except ValueError as error:
         raise ConfigError(Complaint(str(error), source=model.source)) from error

@@ -29,7 +29,7 @@ from gripperd.diagnose.key import (
     rounded,
 )
 from gripperd.diagnose.named import Estimate, Named
-from gripperd.diagnose.problem import Point
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.statement import summary
 from gripperd.errors import Refused
 from gripperd.model import StaticMuscle

@@ -13,7 +13,8 @@ from gripperd.bench.modules import Modules
 from gripperd.bench.rig import Rig
 from gripperd.bench.server import BenchServer
 from gripperd.drivers.bus import TcpAddress, open_bus
-from gripperd.protocol.modbus import Write, decode_reply, encode_request
+from gripperd.protocol.mbap import ModbusTcp
+from gripperd.protocol.modbus import Write
 
 SOON = 10.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
@@ -138,7 +139,8 @@ async def test_requests_may_come_in_any_pieces(bench: BenchServer) -> None:
     host, _, port = bench.address.rpartition(":")
     reader, writer = await asyncio.open_connection(host, int(port))
     one, two = (Write(1, 0, (value,)) for value in (5000, 6000))
-    stream = encode_request(one, 1) + encode_request(two, 2)
+    line = ModbusTcp()
+    stream = line.encode(one, 1) + line.encode(two, 2)
     for cuts in ((0, 24), (0, 3, 8, 20, 24)):
         for start, end in pairwise(cuts):
             writer.write(stream[start:end])
@@ -146,8 +148,8 @@ async def test_requests_may_come_in_any_pieces(bench: BenchServer) -> None:
             await asyncio.sleep(0.002)
         async with asyncio.timeout(SOON):
             replies = await reader.readexactly(24)
-        assert decode_reply(one, 1, replies[:12]) == (5000,)
-        assert decode_reply(two, 2, replies[12:]) == (6000,)
+        assert line.decode(one, 1, replies[:12]) == (5000,)
+        assert line.decode(two, 2, replies[12:]) == (6000,)
     writer.close()
     await writer.wait_closed()
 
@@ -172,7 +174,7 @@ async def test_who_speaks_no_modbus_is_hung_up_on_alone(
 def test_the_rig_lives_in_the_time_it_is_given(modules: Modules) -> None:
     now = 100.0
     bench = BenchServer(modules, lambda: now)
-    bench.answer(encode_request(Write(1, 0, (10_700,)), 1))
+    bench.answer(ModbusTcp().encode(Write(1, 0, (10_700,)), 1))
     now = 102.0
     bench.catch_up()
     plant = modules.rig.plant

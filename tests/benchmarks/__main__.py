@@ -8,12 +8,23 @@ import sys
 
 from rich.console import Console
 
-from tests.benchmarks import bus, latency, physics, plant, punctuality, stopping
+from tests.benchmarks import (
+    bus,
+    faults,
+    latency,
+    outage,
+    physics,
+    plant,
+    punctuality,
+    stopping,
+)
 
 CHAPTERS = {
     "physics": physics,
     "plant": plant,
     "bus": bus,
+    "faults": faults,
+    "outage": outage,
     "latency": latency,
     "stopping": stopping,
     "punctuality": punctuality,

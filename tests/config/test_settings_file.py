@@ -350,8 +350,9 @@ def test_one_bus_has_one_timeout(settings_file: Path, refusal: Refusal) -> None:
     settings_file.write_text(GRIPPER + right + "profiles: objects\n")
     (said,) = refusal(lambda path: load_settings(path, {}), settings_file)
     assert said == (
-        "own.yaml:1: grippers: the bus at plc.local:502 is both asked with timeout_ms"
-        " 250 and asked with timeout_ms 300"
+        "own.yaml:1: grippers: left.bus (plc.local:502, timeout_ms 250) and right.bus"
+        " (plc.local:502, timeout_ms 300) are one line, plc.local:502: say the same of"
+        " it in both"
     )
 
 

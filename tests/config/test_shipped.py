@@ -4,12 +4,14 @@ from pathlib import Path
 import pytest
 
 from gripperd.config import FailMode, load_chain, load_profile, load_settings, shipped
+from gripperd.config.module_library import load_module
 from gripperd.drivers.bus import TcpAddress
 
 LOADERS: dict[str, Callable[[Path], object]] = {
     "": load_settings,
     "models": load_chain,
     "profiles": load_profile,
+    "modules": load_module,
 }
 FILES = sorted(path for path in shipped().rglob("*") if path.is_file())
 

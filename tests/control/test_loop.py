@@ -9,13 +9,14 @@ import pytest
 from gripperd.bench.modules import Modules
 from gripperd.bench.rig import Rig
 from gripperd.bench.server import BenchServer, serve_bench
+from gripperd.config.module_library import ModuleLibrary
 from gripperd.control.command import Command, GraspOrder, Status
 from gripperd.control.gripper import Gripper
 from gripperd.control.loop import Loop
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Grip, Machine
-from gripperd.drivers.analog import AnalogRig
-from gripperd.drivers.bus import Bus, TcpAddress, open_bus
+from gripperd.drivers.analog import AnalogRig, OutputWiring
+from gripperd.drivers.bus import ModbusBus, TcpAddress, open_bus
 from gripperd.errors import LinkError, NotFound, Refused
 from gripperd.model import Chain
 from gripperd.protocol.modbus import Read, Table
@@ -23,7 +24,7 @@ from gripperd.protocol.modbus import Read, Table
 from ..drivers.peer import Line, Peer, listening  # noqa: TID252
 from .stage import ordered, real
 
-Wired = Callable[[Bus], AnalogRig]
+Wired = Callable[[ModbusBus], AnalogRig]
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
 SOON = 20.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
@@ -38,7 +39,7 @@ def order(profiles: Mapping[str, Profile]) -> GraspOrder:
 
 @asynccontextmanager
 async def running(
-    bus: Bus, chain: Chain, wired: Wired, period: float = 0.01
+    bus: ModbusBus, chain: Chain, wired: Wired, period: float = 0.01
 ) -> AsyncIterator[Loop]:
     ids = count(1)
     gripper = Gripper("g0", chain, auto_enable=True, identify=lambda: f"c{next(ids)}")
@@ -272,9 +273,12 @@ async def test_a_current_the_module_cannot_give_ends_the_command_not_the_loop(
     eventually: Eventually,
 ) -> None:
     async with open_bus(bench_address) as bus:
-        rig = wired(bus)
-        weak = replace(rig._output.module, highest=0.005)
-        rig._output = replace(rig._output, module=weak)
+        module = ModuleLibrary().output("waveshare_ao_8ch")
+        weak = replace(module.range(), current_high=0.005, count_high=5000.0)
+        output = OutputWiring(
+            module=replace(module, ranges={"weak": weak}), unit=1, channel=0
+        )
+        rig = AnalogRig(bus, output, wired(bus)._input_wiring)
         ids = iter(range(9))
         gripper = Gripper(
             "g0", chain, auto_enable=True, identify=lambda: f"{next(ids)}"

@@ -120,3 +120,17 @@ def test_offsets_factors_and_rates_have_but_one_form(name: str, exact: bool) -> 
 
 def test_a_constant_has_no_form() -> None:
     assert not is_exact(Candidate("parameter:muscle.diameter", None, 0))
+
+
+def test_a_constant_that_is_wrong_as_an_effect_shows_is_left_to_the_effect(
+    blank: Problem,
+) -> None:
+    low, high = "parameter:valve.pressure_low", "parameter:valve.pressure_high"
+    for library, names in (
+        ({}, {low, high}),
+        ({"valve_gain": EFFECTS["valve_gain"]}, {low}),
+        ({"valve_offset": EFFECTS["valve_offset"]}, {high}),
+        (EFFECTS, set()),
+    ):
+        listed, _ = candidates(library, blank, MEASURED)
+        assert _names(listed) & {low, high} == names

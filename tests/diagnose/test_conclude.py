@@ -1,13 +1,13 @@
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from gripperd.diagnose.conclude import Conclusion, Verdict, conclude
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.rivalry import Contest
-from gripperd.model.track import Array
-from tests.diagnose.small import MODEL, Moment, nothing, recording
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.model.effect import Signal
+from tests.diagnose.small import MODEL, nothing, recording
 
 
 def _judged(told: Diagnosis, contest: Contest) -> Conclusion:
@@ -37,14 +37,18 @@ def test_noise_alone_is_none() -> None:
     assert told.verdict is Verdict.NONE
 
 
-def _bump(moment: Moment) -> Array:
-    """Nothing that a library holds: 60 N at one length and pressure."""
-    length = (moment.contraction - 0.1) / 0.05
-    pressure = (moment.pressure - 250e3) / 100e3
-    return np.asarray(60.0 * np.exp(-(length**2) - pressure**2))
-
-
-def test_a_poor_explanation_is_no_explanation() -> None:
-    told = diagnose(recording(_bump), MODEL, {}, {})
-    assert told.verdict is Verdict.UNEXPLAINED
-    assert told.conclusion.share < 0.5
+@pytest.mark.parametrize(
+    ("kilopascals", "verdict"),
+    [(8.0, Verdict.UNEXPLAINED), (16.0, Verdict.UNEXPLAINED), (18.0, Verdict.NAMED)],
+)
+def test_a_name_is_kept_from_most_of_the_structure(
+    told: Diagnosis, kilopascals: float, verdict: Verdict
+) -> None:
+    # The rig hides 25 kPa: 16 takes 65 % of the structure, 18 takes 78 %.
+    weak = ThresholdPressure(pressure=1e3 * kilopascals)
+    best = told.contest.best
+    point = best.fit.point.with_effect(weak)
+    poor = replace(best, fit=replace(best.fit, point=point))
+    concluded = _judged(told, replace(told.contest, best=poor, rivals=((),)))
+    assert concluded.verdict is verdict
+    assert concluded.signals == (Signal.FORCE,)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.constants import Constant, constants, moved
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.model.effect import Signal
 from tests.diagnose.small import LINKAGE, MODEL, recording, with_jaws
@@ -115,3 +116,10 @@ def test_it_changes_what_the_chain_says(
 ) -> None:
     (index,) = (i for i, one in enumerate(jawed.constants) if one.path == path)
     assert _changed(jawed, index) == signals
+
+
+def test_a_part_is_off_by_two_sigma_at_most_what_has_no_tolerance_by_more() -> None:
+    listed = constants(JAWED, {}, SCALES, [2])
+    for one in listed:
+        is_part = one.path.startswith(("muscle.", "valve.", "gripper."))
+        assert one.reach == (2.0 if is_part else 2.6), one.path

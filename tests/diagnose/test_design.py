@@ -3,7 +3,9 @@ import pytest
 
 from gripperd.diagnose.candidates import WRONG, Candidate, candidates, forms
 from gripperd.diagnose.design import Design, Member, design, problem_prior
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.response import responses
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from gripperd.effects.coulomb_friction import CoulombFriction
@@ -53,7 +55,7 @@ def test_one_prior_sigma_is_a_few_per_cent_of_full_scale(
 ) -> None:
     for candidate in (BIAS, RUB):
         assert candidate.effect is not None
-        (response,) = blank.responses(start, candidate.effect)
+        (response,) = responses(blank, start, candidate.effect)
         prior = problem_prior(blank, response)
         assert prior is not None
         force = np.concatenate(

@@ -1,8 +1,10 @@
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from gripperd.config import load_model
 from gripperd.diagnose.candidates import Candidate, forms
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
@@ -16,6 +18,7 @@ from gripperd.errors import InputError
 from gripperd.model import Linkage
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from gripperd.recordings import read_recording
 from tests.diagnose.conftest import FEW
 from tests.diagnose.small import (
     LINKAGE,
@@ -28,8 +31,16 @@ from tests.diagnose.small import (
     with_jaws,
     without,
 )
+from tests.hidden_rig import make_case
 
 LIBRARY = {name: EFFECTS[name] for name in FEW}
+JAWS = (
+    "linkage_friction",
+    "linkage_backlash",
+    "jaw_compliance",
+    "coulomb_friction",
+    "force_sensor_bias",
+)
 SHARP = {"threshold_pressure": EFFECTS["threshold_pressure"]}
 
 
@@ -230,3 +241,29 @@ def test_nothing_to_compare_is_an_error_for_a_person() -> None:
     bare = without(recording(), "pressure", "contraction", "force")
     with pytest.raises(InputError):
         diagnose(bare, MODEL, {}, {})
+
+
+def test_friction_of_the_linkage_is_found_from_the_files_on(tmp_path: Path) -> None:
+    case = make_case(
+        tmp_path,
+        seed=3,
+        family="A",
+        kind="single",
+        names=("linkage_friction",),
+        strength=0.06,
+    )
+    file = load_model(case.model)
+    library = {name: EFFECTS[name] for name in JAWS}
+    told = diagnose(
+        read_recording(case.recording), file.explanation(), file.tolerances, library
+    )
+    assert (told.verdict, _names(told)) == (Verdict.NAMED, ["linkage_friction"])
+    assert told.main is Signal.GRIP
+    gap = told.gaps[Signal.GRIP]
+    assert gap.after < 1.2 * gap.noise_floor
+    assert gap.after < 0.3 * gap.recalibrated
+    # The rig loses this share of the pull, of which a quarter reaches the jaws.
+    effects = case.truth["effects"]
+    assert isinstance(effects, list)
+    lost = told.named[0].parameters["pull_loss"]
+    assert lost.value == pytest.approx(effects[0]["amount"] / 4, abs=4 * lost.std)

@@ -6,7 +6,8 @@ import pytest
 from gripperd.diagnose.extrapolation import apart, extrapolation, swept
 from gripperd.diagnose.gap import by_signal
 from gripperd.diagnose.holdout import Split, split
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.model.effect import Signal
 from tests.diagnose.small import MODEL, altered, recording

@@ -6,7 +6,8 @@ import pytest
 from gripperd.diagnose.gap import Gap, by_signal, gaps
 from gripperd.diagnose.holdout import split
 from gripperd.diagnose.noise import Noise
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
 

@@ -5,10 +5,11 @@ import pytest
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.next_experiment import Proposal, proposal
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Kind
-from gripperd.diagnose.search import Rival
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep

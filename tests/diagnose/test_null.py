@@ -5,7 +5,7 @@ from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.design import Design, Member
 from gripperd.diagnose.gram import Gram
 from gripperd.diagnose.null import null_gains
-from gripperd.diagnose.problem import Point
+from gripperd.diagnose.point import Point
 from gripperd.model.track import Array
 
 SAMPLES, NUISANCE, OTHERS = 60, 2, 5

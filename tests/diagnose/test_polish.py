@@ -5,11 +5,12 @@ import pytest
 from scipy.optimize import minimize
 
 from gripperd.diagnose.constants import NUISANCE, TOLERATED
+from gripperd.diagnose.explanation import Explanation
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import Polished, polished
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Recording
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.stages import Explanation
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.threshold_pressure import ThresholdPressure

@@ -4,15 +4,10 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.noise import Noise
-from gripperd.diagnose.problem import Point, Problem, moves
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.setup import problem_of
-from gripperd.effects.coulomb_friction import CoulombFriction
-from gripperd.effects.creep import Creep
-from gripperd.effects.force_sensor_bias import ForceSensorBias
-from gripperd.effects.series_compliance import SeriesCompliance
-from gripperd.effects.threshold_pressure import ThresholdPressure
-from gripperd.effects.valve_offset import ValveOffset
-from gripperd.model.effect import Effect, Signal
+from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     FORCE_NOISE,
@@ -47,10 +42,6 @@ def _of(problem: Problem, pieces: list[Array], signal: Signal) -> Array:
             if block.signal is signal
         ]
     )
-
-
-def _index(problem: Problem, path: str) -> int:
-    return [one.path for one in problem.constants].index(path)
 
 
 def test_of_a_true_model_only_the_noise_is_left(blank: Problem, truth: Point) -> None:
@@ -101,114 +92,6 @@ def test_the_full_scale_is_the_largest_reading(blank: Problem) -> None:
     assert blank.full_scale[Signal.FORCE] == pytest.approx(top, rel=0.01)
 
 
-def test_a_zero_error_shows_as_itself_and_nowhere_else(
-    blank: Problem, start: Point
-) -> None:
-    index = _index(blank, "zero.force")
-    response = blank.sensitivities(start)[index]
-    force = _of(blank, response, Signal.FORCE)
-    np.testing.assert_allclose(force, blank.constants[index].sigma)
-    assert not _of(blank, response, Signal.PRESSURE).any()
-
-
-def test_a_sensitivity_is_the_slope_in_the_constant(
-    blank: Problem, start: Point
-) -> None:
-    index = _index(blank, "valve.pressure_high")
-    response = blank.sensitivities(start)[index]
-    share = [
-        (blank.courses[block.course].column("current")[block.good] - 0.004) / 0.016
-        for block in blank.blocks
-    ]
-    sigma = blank.constants[index].sigma
-    # The regulator follows by 20 ms, 800 Pa of 500 kPa, so the slope is near the line.
-    expected = sigma * _of(blank, share, Signal.PRESSURE)
-    found = _of(blank, response, Signal.PRESSURE)
-    np.testing.assert_allclose(found, expected, atol=0.01 * sigma)
-
-
-def test_the_sign_at_rest_changes_its_own_sweep_alone(
-    blank: Problem, start: Point
-) -> None:
-    index = next(
-        i for i, one in enumerate(blank.constants) if one.path.startswith("rest.")
-    )
-    course = blank.constants[index].course
-    responses = blank.sensitivities(start)[index]
-    for block, response in zip(blank.blocks, responses, strict=True):
-        if block.course != course:
-            assert not response.any()
-
-
-def test_a_response_is_that_of_one_scale(blank: Problem, start: Point) -> None:
-    (response,) = blank.responses(start, ForceSensorBias(bias=123.0))
-    np.testing.assert_allclose(_of(blank, response, Signal.FORCE), 5.0)
-
-
-def test_every_amplitude_has_a_response_of_its_own(
-    blank: Problem, start: Point
-) -> None:
-    fast, medium, slow = blank.responses(start, Creep(fast=1.0, medium=1.0, slow=1.0))
-    late = [
-        np.abs(_of(blank, one, Signal.FORCE)).mean() for one in (fast, medium, slow)
-    ]
-    assert 0 < late[0] < late[1] < late[2]
-
-
-def test_of_an_effect_that_acts_the_response_is_the_slope_there(
-    blank: Problem, start: Point
-) -> None:
-    acting = ThresholdPressure(pressure=100e3)
-    there = start.with_effect(acting)
-    (slope,) = blank.responses(there, acting)
-    (whole,) = blank.responses(start, ThresholdPressure(pressure=20e3))
-    low = np.concatenate(
-        [
-            blank.courses[b.course].level("pressure")[b.good]
-            for b in blank.blocks
-            if b.signal is Signal.FORCE
-        ]
-    )
-    held = (low > 30e3) & (low < 95e3)
-    assert held.sum() > 20
-    # Below the threshold nothing pulls, so more threshold takes nothing more.
-    np.testing.assert_allclose(_of(blank, slope, Signal.FORCE)[held], 0.0, atol=1e-9)
-    assert np.abs(_of(blank, whole, Signal.FORCE)[held]).min() > 5.0
-
-
-@pytest.mark.parametrize(
-    ("effect", "signals"),
-    [
-        (CoulombFriction(), {Signal.FORCE}),
-        (ValveOffset(), {Signal.PRESSURE}),
-        (SeriesCompliance(compliance=1e-5), {Signal.OPENING}),
-        (SeriesCompliance(shortening=1e-5), {Signal.OPENING, Signal.FORCE}),
-    ],
-)
-def test_an_effect_changes_these_signals(effect: Effect, signals: set[Signal]) -> None:
-    assert set(moves(effect) or ()) == signals
-
-
-def test_a_sensor_may_change_every_signal() -> None:
-    assert moves(ForceSensorBias()) is None
-
-
-def test_a_freed_constant_has_a_wide_prior(start: Point) -> None:
-    freed = replace(start, freed=frozenset({1}))
-    assert freed.widths[1] > 5.0
-    assert set(np.delete(freed.widths, 1)) == {1.0}
-
-
-def test_effects_of_a_point_come_and_go_by_name(start: Point) -> None:
-    two = start.with_effect(ValveOffset()).with_effect(CoulombFriction())
-    again = two.with_effect(ValveOffset(offset=5e3))
-    assert {effect.name for effect in again.effects} == {
-        "valve_offset",
-        "coulomb_friction",
-    }
-    assert again.without("coulomb_friction").effects == (ValveOffset(offset=5e3),)
-
-
 def test_a_louder_noise_whitens_to_less(blank: Problem, start: Point) -> None:
     residual = blank.residuals(start)[0]
     signal = blank.blocks[0].signal
@@ -216,4 +99,18 @@ def test_a_louder_noise_whitens_to_less(blank: Problem, start: Point) -> None:
     once = replace(blank, noises={**blank.noises, signal: Noise(1e3, 0.0)})
     np.testing.assert_allclose(
         2 * twice.white([residual], 0), once.white([residual], 0), rtol=1e-6
+    )
+
+
+def test_a_wrong_constant_reaches_as_far_as_its_prior_lets_it(
+    blank: Problem, start: Point
+) -> None:
+    paths = [one.path for one in blank.constants]
+    diameter, zero = paths.index("muscle.diameter"), paths.index("zero.force")
+    bound = blank.reach(start)
+    freed = blank.reach(replace(start, freed=frozenset({diameter})))
+    assert (bound[diameter], bound[zero]) == (2.0, 2.6)
+    assert freed[diameter] == 2.6
+    np.testing.assert_array_equal(
+        np.delete(freed, diameter), np.delete(bound, diameter)
     )

@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.candidates import candidates
+from gripperd.diagnose.explanation import AtRest
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Recording
 from gripperd.diagnose.resting import with_resting_sign
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.stages import AtRest
 from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
 from tests.diagnose.small import MODEL, Hidden, Moment, nothing, recording, without

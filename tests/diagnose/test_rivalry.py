@@ -5,10 +5,12 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.found import Found
 from gripperd.diagnose.polish import polished
 from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import contest
-from gripperd.diagnose.search import Found, Rival, added, search
+from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias

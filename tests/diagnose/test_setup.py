@@ -1,81 +1,27 @@
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.setup import problem_of
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
-from gripperd.model.track import Array
 from tests.diagnose.small import (
-    FORCE_NOISE,
     MODEL,
-    PRESSURE_NOISE,
-    Hidden,
-    Moment,
     altered,
     nothing,
     recording,
-    rubbing,
-    threshold,
     without,
 )
-from tests.diagnose.sweep import noise
 
 ALL = ("vented", "a", "b", "c", "d", "e", "b2", "f")
 
 
 def _paths(problem: Problem) -> dict[str, float]:
     return {one.path: one.sigma for one in problem.constants}
-
-
-def test_the_noise_of_each_signal_is_measured(blank: Problem) -> None:
-    force, pressure = blank.noises[Signal.FORCE], blank.noises[Signal.PRESSURE]
-    # A fifth more than the sensor alone: smooth inputs are never quite right.
-    assert force.std == pytest.approx(FORCE_NOISE, rel=0.2)
-    assert pressure.std == pytest.approx(PRESSURE_NOISE, rel=0.2)
-    assert max(force.correlation, pressure.correlation) < 0.2
-
-
-@pytest.mark.parametrize("hidden", [threshold(25.0), rubbing(20.0)])
-def test_what_is_hidden_is_not_taken_for_noise(hidden: Hidden) -> None:
-    problem = problem_of(recording(hidden), MODEL, {})
-    assert problem.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.25)
-    assert problem.noises[Signal.FORCE].drift < 3.0
-
-
-def _ripple(moment: Moment) -> Array:
-    """Three waves along the stroke, 17 samples each."""
-    return np.asarray(25.0 * np.sin(3 * 2 * np.pi * moment.contraction / 0.2))
-
-
-@pytest.mark.parametrize(
-    "left_out",
-    [
-        pytest.param((), id="holds and repeats"),
-        pytest.param(("vented",), id="repeats alone"),
-        pytest.param(("b2",), id="holds alone"),
-    ],
-)
-def test_a_sensor_that_drifts_is_seen_to_drift(left_out: tuple[str, ...]) -> None:
-    runs = tuple(run for run in recording().runs if run.name not in left_out)
-    told = Recording("drift", "0" * 64, runs)
-    drifting = told
-    for seed, name in enumerate(ALL):
-        drifting = altered(drifting, [name], "force", _drifted(seed))
-    still, moving = (
-        problem_of(one, MODEL, {}).noises[Signal.FORCE] for one in (told, drifting)
-    )
-    assert moving.drift > 1.5 * still.drift
-    assert moving.std == pytest.approx(FORCE_NOISE, rel=0.2)
-
-
-def _drifted(seed: int) -> Callable[[Array], Array]:
-    """Add a drift of 5 N that forgets in 40 samples, 10 s."""
-    return lambda force: force + noise(force.size, 5.0, seed, float(np.exp(-1 / 40)))
 
 
 def test_a_stated_tolerance_is_used(blank: Problem) -> None:

@@ -3,10 +3,13 @@
 import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
-from typing import cast
+from typing import TypeVar, cast
 
-from gripperd.drivers.bus import Bus, TcpAddress, open_bus
+from gripperd.drivers.bus import Bus, ModbusBus, TcpAddress, open_bus
 from gripperd.protocol.modbus import Write
+
+Q = TypeVar("Q")
+R = TypeVar("R")
 
 SOON = 10.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
@@ -110,7 +113,7 @@ def silence(line: Line, frame: bytes) -> None:
 @asynccontextmanager
 async def connected(
     behave: Behaviour, patience: float = SOON
-) -> AsyncIterator[tuple[Bus, Peer]]:
+) -> AsyncIterator[tuple[ModbusBus, Peer]]:
     """A bus on a peer that behaves so; `patience` is its time-out."""
     async with listening(behave) as peer:
         address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=patience)
@@ -119,7 +122,7 @@ async def connected(
             yield bus, peer
 
 
-async def up(bus: Bus) -> None:
+async def up(bus: Bus[Q, R]) -> None:
     """Return once there is a connection."""
     async with asyncio.timeout(SOON):
         await bus.up.wait()

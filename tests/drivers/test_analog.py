@@ -7,26 +7,24 @@ from gripperd.bench.faults import BenchFaults
 from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Channel
 from gripperd.bench.server import BenchServer
+from gripperd.config.module_library import ModuleLibrary
 from gripperd.drivers.analog import AnalogRig, InputWiring, OutputWiring, SensorWiring
-from gripperd.drivers.bus import Bus, TcpAddress, open_bus
+from gripperd.drivers.bus import ModbusBus, TcpAddress, open_bus
 from gripperd.errors import DeviceRefused, InputError, LinkLost
 from gripperd.protocol.live_zero import LoopScale
-from gripperd.protocol.modbus import (
-    Read,
-    Refusal,
-    decode_request,
-    encode_refusal,
-    encode_reply,
-    transaction_of,
-)
-from gripperd.protocol.modules import INPUTS, OUTPUTS
+from gripperd.protocol.mbap import ModbusTcp
+from gripperd.protocol.modbus import Read, Refusal
 from gripperd.signals import ABSENT, Quality
 
 from .peer import Behaviour, Line, connected
 
-Wired = Callable[[Bus], AnalogRig]
+Wired = Callable[[ModbusBus], AnalogRig]
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
-OUTPUT = OutputWiring(module=OUTPUTS["waveshare_ao_8ch"], unit=1, channel=0)
+MODULES = ModuleLibrary()
+OUTPUT = OutputWiring(module=MODULES.output("waveshare_ao_8ch"), unit=1, channel=0)
+
+
+TCP = ModbusTcp()
 
 
 async def test_what_is_written_is_read_back_with_every_sensor(
@@ -98,7 +96,9 @@ async def test_the_last_channel_of_the_input_module_is_read(
         current_low=0.004, current_high=0.020, value_low=0.0, value_high=1.0
     )
     sensors = {"grip": SensorWiring(channel=7, scale=scale)}
-    inputs = InputWiring(module=INPUTS["waveshare_ai_8ch"], unit=2, sensors=sensors)
+    inputs = InputWiring(
+        module=MODULES.input("waveshare_ai_8ch"), unit=2, sensors=sensors
+    )
     async with open_bus(bench_address) as bus:
         await bus.up.wait()
         measured = await AnalogRig(bus, OUTPUT, inputs).read(0.0)
@@ -139,14 +139,16 @@ def refusing(unit: int, refusal: Refusal, times: int) -> Behaviour:
 
     def behave(line: Line, frame: bytes) -> None:
         nonlocal left
-        request = decode_request(frame)
+        request = TCP.decode_request(frame)
         assert not isinstance(request, Refusal)
         if request.unit == unit and left:
             left -= 1
-            line.send(encode_refusal(frame, refusal))
+            line.send(TCP.encode_refusal(frame, refusal))
             return
-        zeros = (0,) * request.count if isinstance(request, Read) else ()
-        line.send(encode_reply(request, transaction_of(frame), zeros))
+        # The range codes that are wanted are the only registers that are not zero.
+        value = 2 if isinstance(request, Read) and request.address == 0x1000 else 0
+        values = (value,) * request.count if isinstance(request, Read) else ()
+        line.send(TCP.encode_reply(frame, request, values))
 
     return behave
 
@@ -154,8 +156,12 @@ def refusing(unit: int, refusal: Refusal, times: int) -> Behaviour:
 @pytest.mark.parametrize("unit", [1, 2])
 async def test_a_busy_module_is_read_once_more(unit: int, wired: Wired) -> None:
     async with connected(refusing(unit, Refusal.BUSY, times=1)) as (bus, peer):
-        measured = await wired(bus).read(0.0)
-        assert len(peer.requests) == 3
+        analog = wired(bus)
+        measured = await analog.read(0.0)
+        # The current, the range codes and the sensors, and one of them again.
+        assert len(peer.requests) == 4
+        await analog.read(1.0)
+        assert len(peer.requests) == 6
     assert measured.current.quality is Quality.GOOD
     # It was read: 0 mA is a broken loop, not a refusal.
     assert "0.000 mA" in measured.grip.cause

@@ -3,7 +3,9 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 
-from gripperd.drivers.bus import TcpAddress, _Wire, open_bus
+from gripperd.drivers.bus import TcpAddress, open_bus
+from gripperd.drivers.statistics import BusStatistics
+from gripperd.drivers.tcp import TcpConnector
 from gripperd.errors import (
     BadReply,
     DeviceRefused,
@@ -11,7 +13,8 @@ from gripperd.errors import (
     LinkLost,
     ReplyTimeout,
 )
-from gripperd.protocol.modbus import Read, Table, encode_request
+from gripperd.protocol.mbap import ModbusTcp
+from gripperd.protocol.modbus import Read, Table
 
 from .peer import (
     SOON,
@@ -119,7 +122,7 @@ async def test_registers_are_read() -> None:
 
 async def test_a_reply_in_advance_does_not_answer_the_next_request() -> None:
     def hasty(line: Line, frame: bytes) -> None:
-        coming = encode_request(write(9999), 2)
+        coming = ModbusTcp().encode(write(9999), 2)
         line.send(frame + coming)
 
     async with connected(once(hasty)) as (bus, peer):
@@ -137,9 +140,9 @@ async def test_octets_nobody_asked_for_close_the_line(
 ) -> None:
     async with connected(echo) as (bus, peer):
         peer.lines[0].send(b"hello")
-        wire = bus._wire
+        wire = bus._line
         assert wire is not None
-        await eventually(lambda: bool(wire._buffer))
+        await eventually(lambda: bool(wire.received))
         with pytest.raises(BadReply, match="68 65 6c 6c 6f"):
             await bus.ask(write(10_700))
         await closed(peer.lines[0])
@@ -250,7 +253,7 @@ async def test_a_request_in_flight_ends_when_the_bus_is_closed() -> None:
 
 async def test_transactions_wrap_around_without_zero() -> None:
     async with connected(echo) as (bus, peer):
-        bus._transaction = 0xFFFE
+        bus._sequence = 0xFFFE
         for _ in range(3):
             await bus.ask(write(1))
         numbers = [int.from_bytes(frame[:2], "big") for frame in peer.requests]
@@ -260,12 +263,12 @@ async def test_transactions_wrap_around_without_zero() -> None:
 async def test_a_wire_that_was_just_lost_says_so() -> None:
     # A request may get its turn between the loss and the supervisor's next step.
     async with listening(echo) as peer:
-        loop = asyncio.get_running_loop()
-        _, wire = await loop.create_connection(_Wire, "127.0.0.1", peer.port)
+        address = TcpAddress(host="127.0.0.1", port=peer.port)
+        cut = ModbusTcp().frame_length
+        line = await TcpConnector(address, cut, BusStatistics()).open()
         await peer.called(1)
         peer.lines[0].hang_up()
         async with asyncio.timeout(SOON):
-            await wire.closed.wait()
+            await line.closed.wait()
         with pytest.raises(LinkLost):
-            async with asyncio.timeout(SHORT):
-                await wire.send(encode_request(write(1), 1))
+            await line.send(write(1), b"", SHORT)

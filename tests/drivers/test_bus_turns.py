@@ -2,7 +2,7 @@ import asyncio
 
 import pytest
 
-from gripperd.drivers.bus import Turns
+from gripperd.drivers.turns import Turns
 
 from .peer import (
     SOON,

@@ -4,15 +4,18 @@ from gripperd.bench.faults import BenchFaults
 from gripperd.bench.object import BenchObject
 from gripperd.bench.placed import ObjectState
 from gripperd.bench.sensors import Channel
+from gripperd.bench.wire_faults import Kind, WireFault
 from gripperd.errors import BadReply, InputError
 from gripperd.link.bench import (
     BenchState,
+    MendWire,
     PlacedState,
     PlaceObject,
     ReadBench,
     RemoveObject,
     Request,
     SetFaults,
+    SetWireFaults,
 )
 from gripperd.link.frames import decode, encode
 
@@ -26,10 +29,19 @@ FAULTS = BenchFaults(
     frozen=frozenset({Channel.PRESSURE, Channel.OPENING}),
 )
 
+LATE = WireFault(kind=Kind.LATE, delay=0.5, unit=2, times=3)
+
 
 @pytest.mark.parametrize(
     "request_",
-    [ReadBench(), PlaceObject(EGG), RemoveObject(), SetFaults(FAULTS)],
+    [
+        ReadBench(),
+        PlaceObject(EGG),
+        RemoveObject(),
+        SetFaults(FAULTS),
+        SetWireFaults((LATE, WireFault(kind=Kind.EXCEPTION, code=6)), 0.1),
+        MendWire(),
+    ],
     ids=lambda request: type(request).__name__,
 )
 def test_a_request_arrives_as_it_was_meant(request_: Request) -> None:
@@ -46,6 +58,9 @@ def test_the_state_of_the_rig_arrives_as_it_is() -> None:
         placed=PlacedState(kind=EGG, state=ObjectState.HELD, cracked=False),
         faults=FAULTS,
         address="127.0.0.1:502",
+        line="modbus_tcp",
+        wire_faults=(LATE,),
+        wire_fault_chance=0.25,
     )
     assert decode(encode(state), BenchState) == state
 

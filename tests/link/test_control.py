@@ -18,7 +18,7 @@ from gripperd.control.profile import Mode, Profile
 from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Grip, Machine
 from gripperd.drivers.analog import AnalogRig
-from gripperd.drivers.bus import Bus, TcpAddress, open_bus
+from gripperd.drivers.bus import ModbusBus, TcpAddress, open_bus
 from gripperd.errors import BadReply, InputError, NotFound, Refused
 from gripperd.link.client import Client
 from gripperd.link.control import (
@@ -58,7 +58,7 @@ def order(profiles: Mapping[str, Profile]) -> GraspOrder:
 async def client(
     bench_address: TcpAddress,
     chain: Chain,
-    wired: Callable[[Bus], AnalogRig],
+    wired: Callable[[ModbusBus], AnalogRig],
     socket_path: Path,
 ) -> AsyncIterator[Client]:
     """What the service sees of a gripper on the simulated rig."""

@@ -2,14 +2,14 @@ from math import nan
 
 import pytest
 
+from gripperd.config.module_library import ModuleLibrary
 from gripperd.protocol.live_zero import LoopScale
-from gripperd.protocol.modules import INPUTS
 from gripperd.signals import Quality
 
 GAUGE = LoopScale(
     current_low=0.004, current_high=0.020, value_low=0.0, value_high=600e3
 )
-MODULE = INPUTS["waveshare_ai_8ch"]
+RANGE = ModuleLibrary().input("waveshare_ai_8ch").range()
 
 
 @pytest.mark.parametrize(
@@ -35,7 +35,7 @@ def test_a_span_may_start_above_zero_and_fall() -> None:
 
 @pytest.mark.parametrize("microamperes", [0, 3599, 21_001, 65_535])
 def test_outside_3_6_to_21_milliamperes_the_loop_is_broken(microamperes: int) -> None:
-    reading = GAUGE.reading(MODULE.decode(microamperes))
+    reading = GAUGE.reading(RANGE.current(microamperes))
     assert reading.quality is Quality.BAD
     assert reading.value is None
     assert f"{microamperes / 1000:.3f} mA" in reading.cause
@@ -43,7 +43,7 @@ def test_outside_3_6_to_21_milliamperes_the_loop_is_broken(microamperes: int) ->
 
 @pytest.mark.parametrize("microamperes", [3600, 21_000])
 def test_at_3_6_and_at_21_milliamperes_it_still_speaks(microamperes: int) -> None:
-    assert GAUGE.reading(MODULE.decode(microamperes)).quality is Quality.GOOD
+    assert GAUGE.reading(RANGE.current(microamperes)).quality is Quality.GOOD
 
 
 def test_no_number_is_no_reading() -> None:

@@ -60,6 +60,44 @@ def test_faults_are_replaced_as_a_whole(daemon: Daemon) -> None:
     assert (found["valve_offset_kPa"], found["frozen"]) == (0.0, [])
 
 
+def test_faults_of_the_wire_wait_for_requests_they_can_befall(daemon: Daemon) -> None:
+    # Nobody asks unit 77, so that they can be read back at leisure.
+    faults = [
+        {"kind": "late", "delay_ms": 500, "unit": 77, "times": 2},
+        {"kind": "exception", "code": 6, "unit": 77},
+    ]
+    told = daemon.http.put(f"{BENCH}/wire-faults", json={"faults": faults}).json()
+    assert told["wire_faults"] == {
+        "waiting": [
+            {"kind": "late", "code": 4, "delay_ms": 500.0, "unit": 77, "times": 2},
+            {
+                "kind": "exception",
+                "code": 6,
+                "delay_ms": 1000.0,
+                "unit": 77,
+                "times": 1,
+            },
+        ],
+        "chance": 0.0,
+    }
+    assert daemon.http.get(BENCH).json()["wire_faults"] == told["wire_faults"]
+    mended = daemon.http.delete(f"{BENCH}/wire-faults").json()["wire_faults"]
+    assert mended == {"waiting": [], "chance": 0.0}
+
+
+def test_a_fault_of_the_wire_is_met_by_control(daemon: Daemon) -> None:
+    lost = {"faults": [{"kind": "lost", "times": 3}]}
+    daemon.http.put(f"{BENCH}/wire-faults", json=lost).raise_for_status()
+    daemon.until(BENCH, lambda found: not found["wire_faults"]["waiting"])
+    daemon.until("/v1/grippers/g0", lambda state: state["machine"] == "ready")
+
+
+def test_the_line_of_the_bench_is_told(daemon: Daemon) -> None:
+    found = daemon.http.get(BENCH).json()
+    assert found["line"] == "modbus_tcp"
+    assert found["modbus_tcp"] == found["address"]
+
+
 @pytest.mark.parametrize(
     ("path", "body", "pointer", "says"),
     [
@@ -69,6 +107,8 @@ def test_faults_are_replaced_as_a_whole(daemon: Daemon) -> None:
         ("object", {"profile": "apple", "mass_g": 0}, "/mass_g", "not above 0 g"),
         ("faults", {"broken": ["force"]}, "/broken/0", "grip, opening, pressure"),
         ("faults", {"suply_kPa": 3}, "/suply_kPa", 'did you mean "supply_kPa"'),
+        ("wire-faults", {"faults": [{"kind": "lat"}]}, "/faults/0/kind", "late"),
+        ("wire-faults", {"chance": 2}, "/chance", "1"),
     ],
 )
 def test_what_the_bench_cannot_do_is_named(
@@ -86,6 +126,8 @@ def test_what_the_bench_cannot_do_is_named(
         ("PUT", f"{BENCH}/faults"),
         ("DELETE", f"{BENCH}/faults"),
         ("DELETE", f"{BENCH}/object"),
+        ("PUT", f"{BENCH}/wire-faults"),
+        ("DELETE", f"{BENCH}/wire-faults"),
     ],
 )
 def test_there_is_no_bench_on_hardware(

@@ -34,8 +34,24 @@ def test_info_says_what_one_has_to_know(daemon: Daemon) -> None:
     assert timing["period"]["p50_ms"] > 5
     said = " ".join(found["warnings"])
     assert "not a safety function" in said
-    assert "no watchdog" in said
+    assert "waveshare_ao_8ch: the module keeps the last current" in said
     assert "without real-time priority" in said
+
+
+def test_info_says_what_the_modules_confirm_and_what_they_do_on_their_own(
+    daemon: Daemon,
+) -> None:
+    rig = daemon.http.get("/v1/info").json()["modules"]["g0"]
+    output = rig["output"]
+    assert (output["module"], output["evidence"]) == ("waveshare_ao_8ch", "manual")
+    assert output["title"] == "Waveshare Modbus RTU Analog Output 8CH"
+    # It has no range register; the input module has, and it was read.
+    assert (output["range"], output["range_verified"]) == ("0-20mA", False)
+    assert (rig["input"]["range"], rig["input"]["range_verified"]) == ("0-20mA", True)
+    assert (output["watchdog"], output["watchdog_timeout_s"]) == ("none", None)
+    assert output["safe_mA"] is None
+    assert "keeps the last current" in output["when_silent"]
+    assert output["read_back_measured"] is False
 
 
 def test_info_is_there_without_control(lonely: httpx.Client) -> None:
@@ -44,3 +60,4 @@ def test_info_is_there_without_control(lonely: httpx.Client) -> None:
     assert "not running" in found["control"]
     assert (found["real_time"], found["overruns"]) == (None, None)
     assert found["timing"] == {}
+    assert (found["buses"], found["modules"]) == ([], {})

@@ -12,8 +12,10 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.problem import Point, Problem
-from gripperd.diagnose.stages import Explanation
+from gripperd.diagnose.explanation import Explanation
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.response import change, sensitivities
 from gripperd.model.effect import Effect
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array, Track
@@ -58,7 +60,7 @@ class Start:
     def change(self, effect: Effect) -> list[Array]:
         """Change of every block by an effect. [SI]."""
         there = self.base.with_effect(effect)
-        return self.problem.change(there, self.here, effect, self.tracks, step=1.0)
+        return change(self.problem, there, self.here, effect, self.tracks, step=1.0)
 
 
 class Fits:
@@ -70,7 +72,7 @@ class Fits:
         train, point = exhibit.train, exhibit.point
         residuals = train.residuals(point)
         self._weights = _weights(train, residuals)
-        table = [self._stack(column) for column in train.sensitivities(point)]
+        table = [self._stack(column) for column in sensitivities(train, point)]
         self._constants = np.vstack([np.column_stack(table), np.eye(len(table))])
         self._target = np.concatenate([self._stack(residuals), -point.shifts])
         self._basis, _ = np.linalg.qr(self._constants)
@@ -102,10 +104,9 @@ class Fits:
         test, point = self._exhibit.test, self._exhibit.point
         total = [np.zeros_like(values) for values in test.measured]
         if fit.effect is not None:
-            change = Start.of(test, point).change(fit.effect)
-            total = [part.copy() for part in change]
+            total = [part.copy() for part in Start.of(test, point).change(fit.effect)]
         for factor, column in zip(
-            fit.shifts.tolist(), test.sensitivities(point), strict=True
+            fit.shifts.tolist(), sensitivities(test, point), strict=True
         ):
             for part, values in zip(total, column, strict=True):
                 part += factor * values

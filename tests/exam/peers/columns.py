@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.response import responses, sensitivities
 from gripperd.model.track import Array
 from tests.exam.peers.exhibit import Exhibit
 
@@ -49,13 +50,13 @@ class Columns:
         matrix = np.column_stack([self.constants, self.effects[:, list(chosen)]])
         best = np.linalg.lstsq(matrix, self.target, rcond=None)[0]
         test, point = self.exhibit.test, self.exhibit.point
-        responses = test.sensitivities(point)
+        known = sensitivities(test, point)
         for place in chosen:
             candidate, amplitude = self.owners[place]
             assert candidate.effect is not None
-            responses.append(test.responses(point, candidate.effect)[amplitude])
+            known.append(responses(test, point, candidate.effect)[amplitude])
         total = [np.zeros_like(values) for values in test.measured]
-        for factor, response in zip(best.tolist(), responses, strict=True):
+        for factor, response in zip(best.tolist(), known, strict=True):
             for part, column in zip(total, response, strict=True):
                 part += factor * column
         return total
@@ -64,16 +65,16 @@ class Columns:
 def columns(exhibit: Exhibit) -> Columns:
     """Evaluate and whiten all columns."""
     train, point = exhibit.train, exhibit.point
-    owners, responses = [], []
+    owners, found = [], []
     for candidate in exhibit.listed:
         if candidate.effect is None:
             continue
-        for amplitude, response in enumerate(train.responses(point, candidate.effect)):
+        for amplitude, response in enumerate(responses(train, point, candidate.effect)):
             owners.append((candidate, amplitude))
-            responses.append(response)
-    constants = train.sensitivities(point)
+            found.append(response)
+    constants = sensitivities(train, point)
     count = len(constants)
-    white = _white(train, [*constants, *responses, train.residuals(point)])
+    white = _white(train, [*constants, *found, train.residuals(point)])
     below = np.zeros((count, white.shape[1]))
     below[:, :count] = np.eye(count)
     below[:, -1] = -point.shifts

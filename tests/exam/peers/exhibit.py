@@ -7,7 +7,8 @@ from typing import Protocol
 import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.problem import Point, Problem
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
 from gripperd.model.track import Array
 
 

@@ -3,9 +3,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from gripperd.diagnose.course import Course, alike, courses
+from gripperd.diagnose.course import Course
+from gripperd.diagnose.cutting import courses
 from gripperd.diagnose.recording import Recording, Run
-from gripperd.diagnose.travel import travel
 from gripperd.model.track import Array
 from tests.diagnose.sweep import noise, run, triangle
 
@@ -63,43 +63,6 @@ def test_without_contraction_there_is_no_direction() -> None:
     assert not course.direction.any()
 
 
-def test_travel_turns_where_it_turned_once_it_has_gone_far_enough() -> None:
-    way = np.array([0.0, 2.0, 4.0, 3.5, 5.0, 6.0, 4.0, 2.0, 0.0])
-    signs = travel(way, 1.0)
-    np.testing.assert_array_equal(signs, [0, 1, 1, 1, 1, 1, -1, -1, -1])
-
-
-def test_it_is_told_afterwards_that_it_had_turned() -> None:
-    way = np.array([0.0, 1.0, 2.0, 3.0, 2.6, 2.2, 1.8, 1.4])
-    np.testing.assert_array_equal(travel(way, 1.0), [0, 1, 1, 1, -1, -1, -1, -1])
-
-
-def test_between_reversals_a_contraction_has_no_wiggle() -> None:
-    course = _cycled(WAY, 5e-4)
-    steps = np.diff(course.level("contraction"))
-    assert (steps[: CORNER - 5] >= 0).all()
-    assert (steps[CORNER + 5 :] <= 0).all()
-
-
-def test_a_smoothed_column_is_nearer_to_the_truth() -> None:
-    course = _cycled(WAY, 5e-4)
-    errors = [
-        np.std(column - WAY)
-        for column in (course.level("contraction"), course.column("contraction"))
-    ]
-    assert errors[0] < 0.5 * errors[1]
-
-
-def test_pressure_keeps_the_corner_of_its_command() -> None:
-    command = triangle(SIZE, 0.0, 500e3)
-    (course,) = _cut(
-        run(
-            current=0.004 + 0.016 * command / 500e3, pressure=command + noise(SIZE, 2e3)
-        )
-    )
-    assert course.level("pressure")[CORNER] == pytest.approx(500e3, abs=1e3)
-
-
 def test_a_length_becomes_a_contraction() -> None:
     (course,) = _cut(run(length=REST_LENGTH * (1 - WAY)))
     np.testing.assert_allclose(course.column("contraction"), WAY, atol=1e-12)
@@ -122,74 +85,6 @@ def test_a_pause_cuts_a_run_in_two() -> None:
 def test_a_run_without_a_pause_keeps_its_name() -> None:
     (course,) = _cut(run("x", pressure=noise(100, 1e3)))
     assert course.run == "x"
-
-
-def test_inflations_are_counted_when_they_end() -> None:
-    twice = np.concatenate([triangle(100, 0.0), triangle(100, 0.0)])
-    first, second = _cut(
-        run("x", pressure=twice), _after(run("y", pressure=twice), 100.0)
-    )
-    assert (first.cycle[0], first.cycle[50], first.cycle[130]) == (0, 0, 1)
-    # One ended inside the first run, one with it; the second run begins at two.
-    assert (first.cycle[-1], second.cycle[0], second.cycle[-1]) == (2, 2, 4)
-
-
-def test_a_run_that_ends_inflated_ends_an_inflation() -> None:
-    up = np.linspace(0.0, 500e3, 100)
-    held = np.full(100, 400e3)
-    first, second = _cut(run("x", pressure=up), _after(run("y", pressure=held), 100.0))
-    assert (first.cycle[-1], second.cycle[0]) == (0, 1)
-
-
-def _row(*contractions: float) -> list[float]:
-    runs = [
-        _after(
-            run(
-                str(place),
-                pressure=triangle() + noise(400, 1e3, place),
-                contraction=np.full(400, contraction),
-            ),
-            100.0 * place,
-        )
-        for place, contraction in enumerate(contractions)
-    ]
-    return [float(course.repeat[0]) for course in _cut(*runs)]
-
-
-def test_repeats_in_an_unbroken_row_are_counted() -> None:
-    np.testing.assert_array_equal(
-        _row(0.0, 0.1, 0.1, 0.1, 0.0), [np.nan, 0, 1, 2, np.nan]
-    )
-
-
-def test_a_single_repeat_is_no_row() -> None:
-    assert np.isnan(_row(0.1, 0.1, 0.0)).all()
-
-
-def test_sweeps_are_alike_when_they_ask_the_same() -> None:
-    one = run(pressure=triangle(), contraction=np.full(400, 0.1), force=triangle())
-    other = run(pressure=triangle() + 5e3, contraction=np.full(400, 0.1), force=WAY)
-    assert alike(one, other)
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        pytest.param(
-            run(pressure=triangle(), contraction=np.full(400, 0.15)), id="length"
-        ),
-        pytest.param(
-            run(pressure=triangle(high=400e3), contraction=np.full(400, 0.1)),
-            id="pressure",
-        ),
-        pytest.param(
-            run(pressure=triangle(200), contraction=np.full(200, 0.1)), id="duration"
-        ),
-        pytest.param(run(pressure=triangle()), id="columns"),
-    ],
-)
-def test_sweeps_that_differ_are_not_alike(other: Run) -> None:
-    assert not alike(run(pressure=triangle(), contraction=np.full(400, 0.1)), other)
 
 
 def test_stillness_is_the_time_since_the_command_moved() -> None:

@@ -1,0 +1,52 @@
+"""An explanation: a model, its constants, and the effects thought to act."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+
+from gripperd.model import Linkage, Muscle, Regulator
+from gripperd.model.effect import Effect, SensorEffect, Signal, acts_in_sensor
+
+
+class AtRest(StrEnum):
+    """Sign of dry friction in a sweep without travel: the model leaves it open."""
+
+    CARRIED = "carried"
+    """As the rig came there: unknown, but the same throughout the sweep."""
+    INFLATING = "inflating"
+    """It turns with the pressure."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Explanation:
+    """A model, its constants, and the effects thought to act."""
+
+    muscle: Muscle
+    regulator: Regulator | None
+    linkage: Linkage | None
+    effects: tuple[Effect, ...]
+    at_rest: AtRest = AtRest.CARRIED
+    zeros: Mapping[Signal, float] = field(default_factory=dict)
+    """Small zero errors of sensors, within what any sensor has. [SI]"""
+    rests: Mapping[int, float] = field(default_factory=dict)
+    """Sign of friction in sweeps without travel, by index of the course. [-1..1]"""
+    skews: Mapping[Signal, float] = field(default_factory=dict)
+    """How much earlier than the force a channel is sampled. [s]"""
+    response: float = 0.0
+    """Lag that any regulator has. [s]"""
+    told_length: float | None = None
+    """Rest length to which the recorded contraction refers, when another. [m]"""
+
+    def sensors(self) -> "tuple[SensorEffect, ...]":
+        """Effects that change what is read."""
+        return tuple(effect for effect in self.effects if acts_in_sensor(effect))
+
+    def with_effect(self, effect: Effect) -> "Explanation":
+        """Put an effect in, in the place of one of its name if there is."""
+        names = [one.name for one in self.effects]
+        if effect.name in names:
+            at = names.index(effect.name)
+            effects = (*self.effects[:at], effect, *self.effects[at + 1 :])
+        else:
+            effects = (*self.effects, effect)
+        return replace(self, effects=effects)

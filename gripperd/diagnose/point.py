@@ -1,0 +1,40 @@
+"""Where the search stands: constants moved, effects added."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gripperd.model.effect import Effect
+from gripperd.model.track import Array
+
+FREED = 12.0
+"""Prior of a wrong constant, in its stated sigma."""
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """Where the search stands: constants, and effects added to the model."""
+
+    shifts: Array
+    """Of the constants from nominal, in sigma."""
+    effects: tuple[Effect, ...] = ()
+    freed: frozenset[int] = frozenset()
+    """Constants found to be wrong: their tolerance no longer holds them."""
+
+    @property
+    def widths(self) -> Array:
+        """Prior of each constant, in its stated sigma."""
+        widths = np.ones_like(self.shifts)
+        widths[list(self.freed)] = FREED
+        return widths
+
+    def with_effect(self, effect: Effect) -> "Point":
+        """Put an effect in, in the place of one of its name if there is."""
+        others = tuple(one for one in self.effects if one.name != effect.name)
+        return replace(self, effects=(*others, effect))
+
+    def without(self, name: str) -> "Point":
+        """Take an effect out."""
+        return replace(
+            self, effects=tuple(one for one in self.effects if one.name != name)
+        )

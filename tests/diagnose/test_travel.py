@@ -1,0 +1,29 @@
+import numpy as np
+
+from gripperd.diagnose.travel import leaning, travel
+
+
+def test_travel_turns_where_it_turned_once_it_has_gone_far_enough() -> None:
+    way = np.array([0.0, 2.0, 4.0, 3.5, 5.0, 6.0, 4.0, 2.0, 0.0])
+    signs = travel(way, 1.0)
+    np.testing.assert_array_equal(signs, [0, 1, 1, 1, 1, 1, -1, -1, -1])
+
+
+def test_it_is_told_afterwards_that_it_had_turned() -> None:
+    way = np.array([0.0, 1.0, 2.0, 3.0, 2.6, 2.2, 1.8, 1.4])
+    np.testing.assert_array_equal(travel(way, 1.0), [0, 1, 1, 1, -1, -1, -1, -1])
+
+
+def test_joints_lean_the_way_their_load_goes_and_stick_while_it_turns() -> None:
+    # Of 100 N they stick within 6 N: half way through, friction is nil.
+    load = np.array([0.0, 50.0, 100.0, 94.0, 88.0, 50.0, 56.0, 62.0])
+    np.testing.assert_allclose(leaning(load), [0, 1, 1, 0, -1, -1, 0, 1])
+
+
+def test_under_a_steady_load_joints_stick() -> None:
+    load = 100.0 + np.tile([0.3, -0.3], 10)
+    assert np.abs(leaning(load)).max() < 0.7
+
+
+def test_joints_without_a_load_do_not_rub() -> None:
+    np.testing.assert_array_equal(leaning(np.zeros(5)), 0.0)

@@ -1,0 +1,118 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.course import Course
+from gripperd.diagnose.cutting import courses
+from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.smoothing import Smooth
+from gripperd.diagnose.usable import usable
+from gripperd.model.effect import Signal
+from tests.diagnose.small import (
+    REGULATOR,
+    recording,
+    with_jaws,
+)
+from tests.diagnose.sweep import noise, run, triangle
+
+
+def _courses(told: Recording) -> dict[str, Course]:
+    return {course.run: course for course in courses(told, 0.25)[0]}
+
+
+@pytest.fixture(scope="module")
+def silent() -> dict[str, Course]:
+    """The small rig with sensors that hardly make a noise."""
+    return _courses(with_jaws(recording(noise=1e-3)))
+
+
+def test_samples_next_to_a_reversal_say_nothing_of_the_force(
+    silent: dict[str, Course],
+) -> None:
+    bad = np.flatnonzero(~usable(silent["d"], Signal.FORCE, 3.0))
+    turn = int(np.flatnonzero(np.diff(silent["d"].direction) < -1)[0])
+    assert turn in bad
+    assert bad[bad > 10].tolist() == list(range(turn - 1, turn + 4))
+
+
+def test_samples_next_to_a_step_of_pressure_are_left_out() -> None:
+    step = np.where(np.arange(100) < 50, 0.006, 0.012)
+    told = run(current=step, pressure=REGULATOR.gain * (step - 0.004))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.PRESSURE, 1e3)
+    assert not good[48:53].any()
+    assert good[:45].all()
+    assert good[55:].all()
+
+
+def test_a_slow_ramp_of_pressure_is_usable() -> None:
+    course = _courses(recording())["a"]
+    assert usable(course, Signal.PRESSURE, 1e3).all()
+
+
+def test_jaws_without_an_object_say_nothing_of_the_grip() -> None:
+    grip = np.where(np.arange(100) < 50, 0.2, 20.0)
+    told = run(
+        grip=grip,
+        force=np.full(100, 400.0) + noise(100, 1.0),
+        contraction=np.full(100, 0.1) + noise(100, 1e-4, 2),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    np.testing.assert_array_equal(usable(course, Signal.GRIP, 0.1), grip > 10)
+
+
+def test_a_missing_reading_is_not_usable() -> None:
+    gap = triangle(100)
+    gap[30:33] = np.nan
+    told = run(force=gap, pressure=triangle(100), contraction=np.full(100, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    assert not usable(course, Signal.FORCE, 1.0)[30:33].any()
+
+
+def _ramped(cut: float) -> Course:
+    """Up and down at a fixed length; the smooth pressure lies off near the top."""
+    pressure = triangle()
+    told = run(
+        pressure=pressure + noise(400, 1e3, 1),
+        contraction=np.full(400, 0.1),
+        force=2e-3 * pressure + noise(400, 4.0),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    near = np.abs(np.arange(400) - 199.5) < 5
+    known = Smooth(pressure - cut * near, np.gradient(pressure), variance=1e6)
+    return replace(course, smooth={**course.smooth, "pressure": known})
+
+
+def test_samples_where_the_smooth_pressure_cuts_a_corner_are_left_out() -> None:
+    bad = np.flatnonzero(~usable(_ramped(3e3), Signal.FORCE, 4.0))
+    assert {*range(196, 204)} <= {*bad}
+    assert bad[0] >= 190
+    assert bad[-1] < 210
+
+
+def test_noise_about_a_smooth_pressure_is_no_cut_corner() -> None:
+    assert usable(_ramped(0.0), Signal.FORCE, 4.0).all()
+
+
+def test_a_force_made_of_a_cut_corner_says_nothing_of_the_grip() -> None:
+    force = 600.0 + noise(200, 1.0)
+    told = run(grip=np.full(200, 90.0), force=force, contraction=np.full(200, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    level = np.full(200, 600.0)
+    level[100:105] -= 5.0
+    smooth = {**course.smooth, "force": Smooth(level, 0 * level, variance=1.0)}
+    # Joints under a steady load never come loose, so nothing else is left out.
+    bad = np.flatnonzero(~usable(replace(course, smooth=smooth), Signal.GRIP, 0.1))
+    assert {*range(100, 105)} <= {*bad} <= {*range(94, 111)}
+
+
+def test_while_friction_turns_round_the_grip_says_nothing() -> None:
+    # Joints stick within 30 of 500 N, and are loose again when 59.4 N are undone.
+    force = 300.0 + 500.0 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 401)))
+    told = run(grip=force / 4, force=force, contraction=np.full(401, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    smooth = {**course.smooth, "force": Smooth(force, np.gradient(force))}
+    bad = np.flatnonzero(~usable(replace(course, smooth=smooth), Signal.GRIP, 0.1))
+    # 2.5 N a sample: 29.4 N at the start, 59.4 N after the top, two samples beside.
+    assert bad.tolist() == [*range(14), *range(199, 226)]
