@@ -7,6 +7,7 @@ the module has discrete inputs only.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from gripperd.bench.contacts import Contact
 from gripperd.config.section import Section
@@ -45,7 +46,7 @@ class InterlocksSection(Section):
             for name, channel in self.channels.items()
         }
         sensors = {**wiring.sensors, **contacts}
-        return InputWiring(module=wiring.module, unit=wiring.unit, sensors=sensors)
+        return replace(wiring, sensors=sensors)
 
 
 def check_contacts(interlocks: InterlocksSection, inputs: InputSection | None) -> None:

@@ -1,87 +1,44 @@
 """The settings file, with the models and profiles it names."""
 
-# ruff: noqa: N815  (names carry units, and units have capitals)
-
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field, PlainValidator, ValidationInfo, field_validator
 
-from gripperd.config.bus_section import (
-    BENCH,
-    Address,
-    BusName,
-    HostPort,
-    dialect_on,
-)
+from gripperd.config.bus_section import BENCH, Address, HostPort
 from gripperd.config.bus_sharing import check_one_way
 from gripperd.config.directories import runtime_dir, state_dir
 from gripperd.config.document import Document, read_document
-from gripperd.config.interlocks import (
-    InterlocksSection,
-    check_bench_contacts,
-    check_contacts,
-)
+from gripperd.config.gripper_section import GripperSection
 from gripperd.config.location import shipped
-from gripperd.config.model import ModelFile, load_model
 from gripperd.config.module_library import ModuleLibrary
-from gripperd.config.monitors import MonitorsSection
 from gripperd.config.profile import load_profiles
-from gripperd.config.range_check import check_driven, check_set_range
 from gripperd.config.section import Name, Section
 from gripperd.config.settings import (
     KEYLESS,
-    BenchBus,
     BenchSettings,
-    GripperSettings,
     Http,
     Settings,
     is_loopback,
 )
-from gripperd.config.surroundings import Surroundings, folder_of, library
+from gripperd.config.surroundings import Surroundings, library, path_of
 from gripperd.config.validation import validated
-from gripperd.config.watchdog_check import check_kept, check_watchdog
-from gripperd.config.wiring import (
-    InputSection,
-    OutputSection,
-    check_bench_input,
-    check_bench_output,
-)
 from gripperd.config.wording import shown
-from gripperd.control.budget import WORST_LEAK, FailMode
 from gripperd.control.profile import Profile
 
 
-def _model(name: object, asked: ValidationInfo) -> ModelFile:
-    model = load_model(_named(name, asked))
-    model.chain()
-    return model
-
-
 def _profiles(name: object, asked: ValidationInfo) -> Mapping[str, Profile]:
-    return load_profiles(_named(name, asked))
+    return load_profiles(path_of(name, asked))
 
 
 def _modules(name: object, asked: ValidationInfo) -> Path:
-    if not (found := _named(name, asked)).is_dir():
+    if not (found := path_of(name, asked)).is_dir():
         message = f"{shown(name)} is not a folder"
         raise ValueError(message)
     library(asked).check_own()
     return found
-
-
-def _named(name: object, asked: ValidationInfo) -> Path:
-    """Path of a file or folder that the settings name, relative to their own."""
-    here = folder_of(asked)
-    # The name may be too long, or lead where this user may not look.
-    with suppress(OSError):
-        if isinstance(name, str) and (here / name).exists():
-            return here / name
-    message = f"{shown(name)} cannot be found from {here}"
-    raise ValueError(message)
 
 
 class HttpSection(Section):
@@ -107,94 +64,6 @@ class BenchSection(Section):
     noise_percent: float = Field(default=0.05, ge=0, le=10)
 
 
-class GripperSection(Section):
-    """One gripper."""
-
-    bus: BusName
-    output: OutputSection
-    input: InputSection | None = Field(default=None, validate_default=True)
-    model: Annotated[ModelFile, PlainValidator(_model)]
-    fail_mode: Annotated[FailMode, Field(strict=False)]
-    worst_leak_per_s: float = Field(default=WORST_LEAK, ge=0, le=100)
-    interlocks: InterlocksSection = InterlocksSection()
-    monitors: MonitorsSection = MonitorsSection()
-    auto_enable: bool = False
-    rate_Hz: float = Field(default=100.0, ge=1, le=500, validate_default=True)
-
-    @field_validator("output")
-    @classmethod
-    def _fits_the_bus(
-        cls, output: OutputSection, read: ValidationInfo
-    ) -> OutputSection:
-        bus = read.data.get("bus")
-        if bus is not None:
-            wiring = output.wiring(dialect_on(bus, output.module))
-            check_watchdog(wiring)
-            check_set_range(wiring)
-        if bus == BENCH:
-            check_bench_output(output)
-        return output
-
-    @field_validator("input")
-    @classmethod
-    def _are_on_the_bus(
-        cls, inputs: InputSection | None, read: ValidationInfo
-    ) -> InputSection | None:
-        bus = read.data.get("bus")
-        if bus == BENCH:
-            check_bench_input(inputs)
-        if bus is not None and inputs is not None:
-            check_set_range(inputs.wiring(dialect_on(bus, inputs.module)))
-        return inputs
-
-    @field_validator("interlocks")
-    @classmethod
-    def _have_channels(
-        cls, interlocks: InterlocksSection, read: ValidationInfo
-    ) -> InterlocksSection:
-        if "input" in read.data:
-            check_contacts(interlocks, read.data["input"])
-        if read.data.get("bus") == BENCH:
-            check_bench_contacts(interlocks)
-        return interlocks
-
-    @field_validator("model")
-    @classmethod
-    def _can_be_driven(cls, model: ModelFile, read: ValidationInfo) -> ModelFile:
-        output = read.data.get("output")
-        if output is not None:
-            module = output.module
-            check_driven(model.chain().regulator, module, module.range(output.range))
-        return model
-
-    @field_validator("rate_Hz")
-    @classmethod
-    def _keeps_the_watchdog(cls, rate: float, read: ValidationInfo) -> float:
-        output = read.data.get("output")
-        if output is not None and output.watchdog is not None:
-            check_kept(output.watchdog.settings, rate)
-        return rate
-
-    def settings(self, name: str) -> GripperSettings:
-        """The same in SI."""
-        bus, inputs = self.bus, self.input
-        return GripperSettings(
-            name=name,
-            bus=BenchBus() if bus == BENCH else bus.address,
-            output=self.output.wiring(dialect_on(bus, self.output.module)),
-            input=self.interlocks.with_contacts(
-                inputs.wiring(dialect_on(bus, inputs.module)) if inputs else None
-            ),
-            model=self.model,
-            chain=self.model.chain(),
-            fail_mode=self.fail_mode,
-            worst_leak=self.worst_leak_per_s,
-            policies=self.monitors.policies,
-            auto_enable=self.auto_enable,
-            rate=self.rate_Hz,
-        )
-
-
 class SettingsSection(Section):
     """The whole file."""
 
@@ -214,7 +83,7 @@ class SettingsSection(Section):
         check_one_way({name: gripper.bus for name, gripper in grippers.items()})
         owner: dict[str, str] = {}
         for name, gripper in grippers.items():
-            for thing, use in _uses(name, gripper):
+            for thing, use in gripper.uses(name):
                 if owner.setdefault(thing, use) != use:
                     message = f"{thing} is both {owner[thing]} and {use}"
                     raise ValueError(message)
@@ -226,30 +95,16 @@ class SettingsSection(Section):
         cls, grippers: dict[str, GripperSection]
     ) -> dict[str, GripperSection]:
         """Versions are kept by the name of their model."""
-        known: dict[str, ModelFile] = {}
+        known: dict[str, GripperSection] = {}
         for gripper in grippers.values():
             model = gripper.model
-            if known.setdefault(model.name, model) != model:
-                first = known[model.name].source
-                message = f"{first} and {model.source} differ, both named {model.name}"
+            first = known.setdefault(model.name, gripper).model
+            if first != model:
+                message = (
+                    f"{first.source} and {model.source} differ, both named {model.name}"
+                )
                 raise ValueError(message)
         return grippers
-
-
-def _uses(name: str, gripper: GripperSection) -> Iterator[tuple[str, str]]:
-    """What a gripper claims on its bus, and what for."""
-    bus, output = gripper.bus, gripper.output
-    if bus == BENCH:
-        where: str = bus
-        yield "the bench", f"the rig of {name}"
-    else:
-        where = str(bus.address)
-    # A device without an address has its line for itself.
-    unit = f"unit {output.unit} on {where}" if output.unit else f"the device on {where}"
-    yield unit, output.module.name
-    yield f"channel {output.channel or 0} of {unit}", f"the valve of {name}"
-    if gripper.input:
-        yield f"unit {gripper.input.unit} on {where}", gripper.input.module.name
 
 
 def load_settings(

@@ -69,6 +69,19 @@ def test_the_bus_decides_what_a_module_is_asked_in(gripper: Load) -> None:
     assert icpdas.output.dialect is ModuleDialect.DCON
 
 
+def test_the_bus_decides_what_the_sensors_are_asked_in(gripper: Load) -> None:
+    sensors = (
+        "    input: {module: adam_4017_plus, unit: 2, range: 4-20mA,\n"
+        "      grip: {channel: 2, current_mA: [4, 20], grip_N: [0, 100]}}\n"
+        "    interlocks: {estop: {channel: 4}}\n"
+    )
+    output = "{module: icpdas_i_7024, unit: 1, channel: 0}"
+    wiring = gripper(DCON, output, sensors).input
+    assert wiring is not None
+    assert (wiring.dialect, wiring.range_name) == (ModuleDialect.ADAM_ASCII, "4-20mA")
+    assert set(wiring.sensors) == {"grip", "estop"}
+
+
 def test_a_regulator_needs_neither_unit_nor_channel(gripper: Load) -> None:
     loaded = gripper(ITV, "{module: smc_itv_rc}")
     assert isinstance(loaded.bus, ItvAddress)
