@@ -147,6 +147,8 @@ Request: TypeAlias = (
     | lease.Request
     | faults.Request
 )
+UnderLease: TypeAlias = Submit | Cancel | Enable | faults.Acknowledge | faults.Reset
+"""What only the owner of the lease may ask, while somebody has one."""
 
 
 class ControlDesk:
@@ -183,13 +185,13 @@ class ControlDesk:
             return [loop.state() for loop in loops]
         if isinstance(request, ReadJournal):
             return await self._page(request)
+        loop = self._loop(request.gripper)
+        _check(request, loop)
         if isinstance(request, lease.Request):
-            loop = self._loop(request.gripper)
             return lease.respond(request, loop.gripper, loop.present())
         if isinstance(request, faults.Request):
-            loop = self._loop(request.gripper)
             return faults.respond(request, loop.gripper, loop.present())
-        return await _respond(request, self._loop(request.gripper))
+        return await _respond(request, loop)
 
     async def _page(self, request: ReadJournal) -> Page:
         loop, life = self._loop(request.gripper), self._started_at
@@ -220,7 +222,6 @@ class ControlDesk:
 
 
 async def _respond(request: Request, loop: Loop) -> object:
-    _check(request, loop)
     match request:
         case Submit(_, order, deadline, key):
             asked = request.task or order
@@ -243,9 +244,12 @@ async def _respond(request: Request, loop: Loop) -> object:
 
 
 def _check(request: Request, loop: Loop) -> None:
-    """Refuse what needs a lease without it, and what comes too late."""
+    """Refuse what needs a lease without it, and what comes too late.
+
+    Stop and disable need none: nothing moves by them, and they must always be possible.
+    """
     now = loop.present()
-    if isinstance(request, Submit | Cancel | Enable):
+    if isinstance(request, UnderLease):
         loop.gripper.permission.tenancy.check(request.lease, now)
     if isinstance(request, Submit) and (request.late or inf) <= now.monotonic:
         # Nobody waits for it any more, and somebody may have been told so.

@@ -70,10 +70,14 @@ async def list_faults(
 
 @routes.post("/grippers/{gripper}/faults/{id}/acknowledge")
 async def acknowledge_fault(
-    daemon: Daemon, gripper: str, id: str, asked: Acknowledgement
+    daemon: Daemon,
+    gripper: str,
+    id: str,
+    asked: Acknowledgement,
+    lease: LeaseToken,
 ) -> FaultDocument:
     """Say who has seen it; the first one counts. Nothing else changes."""
-    request = Acknowledge(daemon.gripper(gripper).name, id, asked.by)
+    request = Acknowledge(daemon.gripper(gripper).name, id, asked.by, lease)
     return _document(await daemon.control.ask(request, Fault))
 
 

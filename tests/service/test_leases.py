@@ -47,6 +47,31 @@ def test_a_stop_needs_no_lease(daemon: Daemon, token: str) -> None:
     assert stopped["error"]["code"] == "stopped"
 
 
+@pytest.mark.parametrize(
+    ("path", "body"),
+    [("enable", None), ("reset", None), ("faults/f/acknowledge", {"by": "Bob"})],
+)
+def test_only_the_owner_leads_out_of_a_fault(
+    daemon: Daemon, token: str, path: str, body: dict[str, str] | None
+) -> None:
+    place = f"/v1/grippers/g0/{path}"
+    for headers in ({}, {"lease-token": "guessed"}):
+        answer = daemon.http.post(place, json=body, headers=headers)
+        found = is_problem(answer, 423, "leased")
+        assert "Ann has the lease for another" in found["detail"]
+    # Past the lease: there is no fault to acknowledge, and none to be reset from.
+    reached = daemon.http.post(place, json=body, headers={"lease-token": token})
+    assert reached.status_code == {"enable": 409, "reset": 409}.get(path, 404)
+
+
+def test_a_disable_needs_no_lease(daemon: Daemon, token: str) -> None:
+    disabled = daemon.http.post("/v1/grippers/g0/disable")
+    assert (disabled.status_code, disabled.json()["machine"]) == (200, "disabled")
+    headers = {"lease-token": token}
+    enabled = daemon.http.post("/v1/grippers/g0/enable", headers=headers)
+    assert enabled.json()["machine"] == "ready"
+
+
 def test_everybody_sees_who_has_it_and_nobody_the_token(
     daemon: Daemon, token: str
 ) -> None:
