@@ -178,10 +178,11 @@ class Dispatch:
     def _end(self, ending: Ending, now: Instant) -> None:
         assert self._execution is not None
         command, self._execution = self._execution.command, None
-        order, held = command.order, ending.held
-        limits = order or held
+        grip = ending.grip or self._hold.interrupted
+        held = ending.held if grip is Grip.HOLDING else None
+        limits = command.order or held
         name = None if limits is None else limits.profile.name
-        self._hold.settle(ending.grip, name)
+        self._hold.settle(grip, name)
         self.keep.begin(held)
         if isinstance(ending.finding, Tared):
             self.zero = ending.finding.zero
@@ -195,9 +196,7 @@ class Dispatch:
     def _cut_short(self, failure: Failure, now: Instant) -> None:
         """End what runs where it is."""
         assert self._execution is not None
-        grip = self._hold.interrupted
-        held = self._execution.held if grip is Grip.HOLDING else None
-        self._end(Ending(grip, None, failure, held), now)
+        self._end(Ending(None, None, failure, self._execution.held), now)
 
     def _expire(self, now: Instant) -> None:
         for command, failure in self._ledger.overdue(now):

@@ -12,10 +12,11 @@ from gripperd.control.task import Finding
 class Ending:
     """What a command leaves behind."""
 
-    grip: Grip
+    grip: Grip | None
+    """None: what is seen between the jaws decides."""
     result: GraspResult | None = None
     failure: Failure | None = None
     held: Held | None = None
-    """What is held from now on; None where that is nothing, or not known."""
+    """What is held from now on, if that is the grip; None where it is not known."""
     finding: Finding | None = None
     """What came of a task that is no grasp."""

@@ -1,5 +1,6 @@
 """The command that runs: its motion, and what its end means."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from gripperd.control.adjust import Adjustment
@@ -20,17 +21,20 @@ from gripperd.control.states import Grip
 from gripperd.signals import Measurement
 from gripperd.units import MILLI
 
-GRIP_AFTER = {
+GRIP_AFTER: Mapping[Outcome, Grip | None] = {
     Outcome.HELD: Grip.HOLDING,
     Outcome.TOO_SMALL: Grip.HOLDING,
     Outcome.TOO_LARGE: Grip.HOLDING,
-    Outcome.FORCE_NOT_REACHED: Grip.HOLDING,
+    Outcome.FORCE_NOT_REACHED: None,
     Outcome.CRUSH_LIMIT: Grip.HOLDING,
     Outcome.NO_OBJECT: Grip.NO_PART,
     Outcome.SLIPPED: Grip.PART_LOST,
     Outcome.UNKNOWN: Grip.UNKNOWN,
 }
-"""What the jaws hold after a grasp; an unwanted object is not let go of unasked."""
+"""What the jaws hold after a grasp; an unwanted object is not let go of unasked.
+
+None: a force too small may be that of an object, or of none that was ever touched.
+"""
 
 
 class Execution:
@@ -83,12 +87,11 @@ class Execution:
         line = f"{self.motion.elapsed:.2f} s: {outcome}"
         log = (*self.command.log, line, *filter(None, [doubt(result)]))
         self.command = replace(self.command, log=log)
-        grip = GRIP_AFTER[outcome]
         return Ending(
-            grip,
+            GRIP_AFTER[outcome],
             result,
             failure(result, self.motion.order),
-            held=self.motion.held(outcome) if grip is Grip.HOLDING else None,
+            held=self.motion.held(outcome),
         )
 
 

@@ -6,13 +6,15 @@ import pytest
 from gripperd.bench.faults import HEALTHY, BenchFaults
 from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Channel
-from gripperd.control.command import Outcome
+from gripperd.control.command import GraspOrder, Outcome
+from gripperd.control.monitors.policy import Cause
 from gripperd.control.profile import Mode, Profile
+from gripperd.control.states import Grip
 from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.model import Chain
 from gripperd.signals import Quality
 
-from .stage import Stage, grasped, ordered
+from .stage import Stage, grasped, ordered, real
 
 Profiles = Mapping[str, Profile]
 BLIND = frozenset(Channel)
@@ -117,6 +119,37 @@ def test_jaws_that_never_closed_do_not_say_there_is_no_object(
     short = BenchFaults(supply_pressure=120e3)
     result = grasped(stage, profiles["apple"], mode, short)
     assert result.outcome is Outcome.FORCE_NOT_REACHED
+
+
+@pytest.mark.parametrize(
+    ("broken", "grip"),
+    [(frozenset(), Grip.NO_PART), (frozenset({Channel.GRIP}), Grip.UNKNOWN)],
+    ids=["felt", "not felt"],
+)
+def test_what_was_never_touched_is_neither_held_nor_lost(
+    ready: Stage, apple: GraspOrder, broken: frozenset[Channel], grip: Grip
+) -> None:
+    ready.rig.plant.faults = BenchFaults(supply_pressure=120e3, broken=broken)
+    ready.rig.plant.place(real(apple.profile))
+    missed = ready.complete(apple)
+    assert missed.result is not None
+    assert missed.result.outcome is Outcome.FORCE_NOT_REACHED
+    assert (ready.state.grip, ready.state.holding) == (grip, None)
+    ready.run(1.0)
+    assert ready.state.grip is grip
+    causes = {fault.cause for fault in ready.gripper.faults.newest(9)}
+    assert Cause.PART_LOST not in causes
+
+
+def test_what_is_held_with_too_little_force_is_held(
+    ready: Stage, apple: GraspOrder
+) -> None:
+    ready.rig.plant.faults = SHORT_OF_AIR
+    ready.rig.plant.place(real(apple.profile))
+    weak = ready.complete(apple)
+    assert weak.result is not None
+    assert weak.result.outcome is Outcome.FORCE_NOT_REACHED
+    assert (ready.state.grip, ready.state.holding) == (Grip.HOLDING, "apple")
 
 
 def test_a_force_sensor_that_is_stuck_does_not_cost_an_egg(
