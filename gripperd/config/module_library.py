@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from gripperd.config.complaint import did_you_mean, gathering
 from gripperd.config.document import read_document
@@ -15,6 +16,7 @@ from gripperd.config.wording import shown
 from gripperd.errors import ConfigError
 from gripperd.protocol.modules import InputModule, OutputModule
 
+M = TypeVar("M", OutputModule, InputModule)
 SCHEMAS: dict[object, type[OutputSchema] | type[InputSchema]] = {
     "output": OutputSchema,
     "input": InputSchema,
@@ -38,21 +40,11 @@ class ModuleLibrary:
         ConfigError
             Its file is unusable.
         """
-        module = self._find(name)
-        if isinstance(module, OutputModule):
-            return module
-        known = [m.name for m in self.all() if isinstance(m, OutputModule)]
-        message = f"{shown(name)} is not an output module; "
-        raise ValueError(message + did_you_mean(str(name), known))
+        return self._named(name, OutputModule, "output")
 
     def input(self, name: object) -> InputModule:
         """Input module of that name, see :meth:`output`."""
-        module = self._find(name)
-        if isinstance(module, InputModule):
-            return module
-        known = [m.name for m in self.all() if isinstance(m, InputModule)]
-        message = f"{shown(name)} is not an input module; "
-        raise ValueError(message + did_you_mean(str(name), known))
+        return self._named(name, InputModule, "input")
 
     def all(self) -> Iterator[AnyModule]:
         """Every module; those whose file is broken are left out."""
@@ -77,6 +69,14 @@ class ModuleLibrary:
                 load_module(path)
         if complaints:
             raise ConfigError(*complaints)
+
+    def _named(self, name: object, kind: type[M], word: str) -> M:
+        module = self._find(name)
+        if isinstance(module, kind):
+            return module
+        known = [each.name for each in self.all() if isinstance(each, kind)]
+        message = f"{shown(name)} is not an {word} module; "
+        raise ValueError(message + did_you_mean(str(name), known))
 
     def _find(self, name: object) -> AnyModule | None:
         if not isinstance(name, str) or not NAME.fullmatch(name):

@@ -3,7 +3,6 @@
 from gripperd.drivers.facts import watchdog_of
 from gripperd.drivers.watchdog import BEATS
 from gripperd.drivers.wiring import OutputWiring, WatchdogSettings
-from gripperd.protocol.modules import ModuleDialect
 from gripperd.protocol.watchdog import Watchdog
 from gripperd.units import MILLI
 
@@ -81,15 +80,8 @@ def _check_safe_current(
             f" to nothing else such as {current / MILLI:g} mA"
         )
         raise ValueError(message)
-    if fixed is None and not _has_safe_value(wiring):
+    asked = wiring.module.asked_in(wiring.dialect)
+    if fixed is None and (asked is None or asked.safe is None):
         message = f"watchdog.safe_mA: {name} has no safe value over {wiring.dialect}"
         raise ValueError(message)
     wiring.range.check(current, name)
-
-
-def _has_safe_value(wiring: OutputWiring) -> bool:
-    module = wiring.module
-    if wiring.dialect is ModuleDialect.MODBUS:
-        return module.modbus is not None and module.modbus.safe is not None
-    spoken = module.phrases.get(wiring.dialect)
-    return spoken is not None and spoken.safe is not None

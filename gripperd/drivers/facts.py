@@ -118,16 +118,10 @@ def warnings(output: OutputWiring, inputs: InputWiring | None) -> tuple[str, ...
 
 def watchdog_of(wiring: OutputWiring) -> Watchdog | None:
     """Watchdog of a module, in the dialect that it is asked in."""
-    module = wiring.module
-    if wiring.dialect is ModuleDialect.MODBUS:
-        return module.modbus.watchdog if module.modbus else None
-    spoken = module.phrases.get(wiring.dialect)
-    return spoken.watchdog if spoken else None
+    asked = wiring.module.asked_in(wiring.dialect)
+    return asked.watchdog if asked else None
 
 
 def _measured(wiring: OutputWiring) -> bool:
-    module = wiring.module
-    if wiring.dialect is ModuleDialect.MODBUS:
-        return module.modbus is not None and not module.modbus.echo
-    spoken = module.phrases.get(wiring.dialect)
-    return spoken is not None and not spoken.echo
+    asked = wiring.module.asked_in(wiring.dialect)
+    return asked is not None and not asked.echo

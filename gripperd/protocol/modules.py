@@ -219,6 +219,12 @@ class OutputModule(Module):
         itv = (ModuleDialect.ITV,) if self.itv else ()
         return (*modbus, *self.phrases, *itv)
 
+    def asked_in(self, dialect: ModuleDialect) -> OutputMap | OutputPhrases | None:
+        """What is said to it in a dialect; None where no description is needed."""
+        if dialect is ModuleDialect.MODBUS:
+            return self.modbus
+        return self.phrases.get(dialect)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InputModule(Module):

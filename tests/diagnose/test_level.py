@@ -2,42 +2,21 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.course import Course
-from gripperd.diagnose.cutting import courses
-from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.smoothing import smooth
 from gripperd.model.track import Array
+from tests.diagnose.cycled import CORNER, SIZE, WAY, cut, cycled
 from tests.diagnose.sweep import noise, run, triangle
-
-REST_LENGTH = 0.25
-SIZE = 401
-CORNER = SIZE // 2
-WAY = 0.2 * (1.0 - np.abs(np.linspace(-1.0, 1.0, SIZE)))
-
-
-def _cut(*runs: Run) -> tuple[Course, ...]:
-    return courses(Recording("r", "0" * 64, runs), REST_LENGTH)[0]
-
-
-def _cycled(contraction: Array, std: float = 2e-4, seed: int = 1) -> Course:
-    size = contraction.size
-    (course,) = _cut(
-        run(
-            pressure=300e3 + noise(size, 1e3, seed + 1),
-            contraction=contraction + noise(size, std, seed),
-        )
-    )
-    return course
 
 
 def test_between_reversals_a_contraction_has_no_wiggle() -> None:
-    course = _cycled(WAY, 5e-4)
+    course = cycled(WAY, 5e-4)
     steps = np.diff(course.level("contraction"))
     assert (steps[: CORNER - 5] >= 0).all()
     assert (steps[CORNER + 5 :] <= 0).all()
 
 
 def test_a_smoothed_column_is_nearer_to_the_truth() -> None:
-    course = _cycled(WAY, 5e-4)
+    course = cycled(WAY, 5e-4)
     errors = [
         np.std(column - WAY)
         for column in (course.level("contraction"), course.column("contraction"))
@@ -47,7 +26,7 @@ def test_a_smoothed_column_is_nearer_to_the_truth() -> None:
 
 def test_pressure_keeps_the_corner_of_its_command() -> None:
     command = triangle(SIZE, 0.0, 500e3)
-    (course,) = _cut(
+    (course,) = cut(
         run(
             current=0.004 + 0.016 * command / 500e3, pressure=command + noise(SIZE, 2e3)
         )
@@ -60,7 +39,7 @@ def _pulling(seed: int) -> tuple[Course, Array]:
     way = np.abs((np.arange(SIZE) / 80.0) % 2.0 - 1.0)
     pressure = 500e3 * way
     force = 2e-3 * pressure - 100.0
-    (course,) = _cut(
+    (course,) = cut(
         run(
             current=0.004 + 0.016 * way,
             pressure=pressure + noise(SIZE, 1e3, seed),
@@ -93,7 +72,7 @@ def test_force_beside_pressure_has_less_noise_than_a_trend_alone() -> None:
 def test_force_that_does_not_go_with_the_pressure_keeps_its_own_trend() -> None:
     # A slow drift beside a triangle: whatever follows the pressure adds corners to it.
     force = np.linspace(-200.0, 200.0, SIZE)
-    (course,) = _cut(
+    (course,) = cut(
         run(
             pressure=triangle(SIZE) + noise(SIZE, 1e3),
             contraction=np.full(SIZE, 0.1),
