@@ -38,7 +38,8 @@ def test_what_goes_over_the_bus_is_shown_decoded(daemon: Daemon, folder: Path) -
     assert {half["unit"] for half in halves} == {1, 2}
     assert {half["error"] for half in halves} == {None}
     seen = {name: ma for half in halves for name, ma in half["current_mA"].items()}
-    assert seen.keys() == {"valve", "pressure", "opening", "grip"}
+    sensors = {"pressure", "opening", "grip"}
+    assert seen.keys() == {"valve", *sensors, "enable", "estop"}
     # The jaws are open: 85 of 100 mm, on 4 to 20 mA.
     assert seen["opening"] == pytest.approx(4 + 16 * 0.85, abs=0.1)
     lines = gripperd(*asked).stdout.splitlines()
