@@ -134,11 +134,21 @@ class Faults:
             del self._away[fault.id]
         self._tell("reset", now)
 
-    def refusal(self) -> Refused:
-        """What to say to a command while something is latched."""
-        hints = (*self._unseen, "mend the cause", "POST .../reset", "POST .../enable")
+    def check(self) -> None:
+        """Refuse to go on while something is latched.
+
+        Raises
+        ------
+        Refused
+            With the way out.
+        """
+        if not self.latched:
+            return
+        present = any(fault.cleared_at is None for fault in self.latched)
+        mend = ("mend the cause",) if present else ()
+        hints = (*self._unseen, *mend, "POST .../reset", "POST .../enable")
         message = f"the gripper is in fault: {_listed(self.latched)}"
-        return Refused(message, code="wrong-state", hints=hints)
+        raise Refused(message, code="wrong-state", hints=hints)
 
     @property
     def _unseen(self) -> tuple[str, ...]:
@@ -159,7 +169,7 @@ class Faults:
             return
         cleared = replace(fault, cleared_at=now.wall if gone else None)
         self._faults[fault.id] = cleared
-        self._tell(f"{fault.cause} is {'gone' if gone else 'back'}", now)
+        self._tell(f"{fault.cause} {'cleared' if gone else 'is back'}", now)
         if not cleared.active:
             del self._away[fault.id]
 

@@ -118,8 +118,7 @@ class Gripper:
         """
         if (known := self.ledger.replay(key)) is not None:
             return known, True
-        if self.faults.latched:
-            raise self.faults.refusal()
+        self.faults.check()
         if self.machine is not Machine.EXECUTING:
             self._life.check(Event.START)
         self.permission.check()
@@ -153,7 +152,14 @@ class Gripper:
         return self._output.change()
 
     def enable(self) -> None:
-        """Allow commands; nothing moves."""
+        """Allow commands; nothing moves.
+
+        Raises
+        ------
+        Refused
+            Something is latched, or there is nothing to enable.
+        """
+        self.faults.check()
         self._life.on(Event.ENABLE)
         self._enabled = True
 
@@ -173,11 +179,10 @@ class Gripper:
         """
         if self.machine is Machine.ESTOPPED:
             self.permission.check_reset()
-            self._life.on(Event.ESTOP_RELEASED)
         else:
             self._life.check(Event.RESET)
             self.faults.reset(now)
-            self._life.on(Event.RESET)
+        self._life.on(Event.RESET)
         self._enabled = False
 
     def state(self, now: Instant) -> GripperState:

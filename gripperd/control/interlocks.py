@@ -13,6 +13,13 @@ SAMPLES = 2
 """Samples in a row until a contact is believed to have changed."""
 
 
+def closed(reading: Reading) -> bool:
+    """Whether one sample of a contact forbids nothing."""
+    return reading.quality is Quality.ABSENT or (
+        reading.value is not None and reading.value > CLOSED
+    )
+
+
 class Interlocks:
     """The two contacts of one gripper; one that is not fitted forbids nothing."""
 
@@ -44,9 +51,7 @@ class _Contact:
         self._differs = 0
 
     def update(self, reading: Reading) -> None:
-        closed = reading.quality is Quality.ABSENT or (
-            reading.value is not None and reading.value > CLOSED
-        )
-        self._differs = self._differs + 1 if closed is not self.closed else 0
+        now = closed(reading)
+        self._differs = self._differs + 1 if now is not self.closed else 0
         if self._differs >= SAMPLES:
-            self.closed, self._differs = closed, 0
+            self.closed, self._differs = now, 0

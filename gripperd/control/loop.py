@@ -11,7 +11,7 @@ import structlog
 from gripperd.control.alarm import Alarm
 from gripperd.control.command import Command, Order, Status
 from gripperd.control.gripper import Gripper
-from gripperd.control.journal import Journal
+from gripperd.control.journal import Happening, Journal
 from gripperd.control.ledger import LONGEST_QUEUE, Key
 from gripperd.control.pace import Pace
 from gripperd.control.snapshot import GripperState, Instant
@@ -64,6 +64,7 @@ class Loop:
         self._log = structlog.get_logger().bind(gripper=gripper.name)
         self._told: tuple[Machine, Grip] | None = None
         self._statuses: dict[str, Status] = {}
+        self._read = 0
 
     @property
     def facts(self) -> RigFacts:
@@ -102,11 +103,12 @@ class Loop:
         return now.monotonic
 
     def _tell(self) -> None:
-        """Log what has changed: states, and commands that began or ended."""
+        """Log what has changed: faults, states, commands that began or ended."""
         gripper = self.gripper
         now = self._now()
         seen = gripper.state(now)
         gripper.ledger.journal.look(seen, now.wall)
+        self._tell_faults(gripper.ledger.journal)
         state = (seen.machine, seen.grip)
         if state != self._told:
             self._told = state
@@ -122,6 +124,14 @@ class Loop:
             if self._statuses.get(command.id) is not command.status:
                 self._log.info("command", **_summary(command))
         self._statuses = {command.id: command.status for command in newest}
+
+    def _tell_faults(self, journal: Journal) -> None:
+        if journal.newest == self._read:
+            return
+        for entry in journal.since(self._read):
+            self._read = entry.number
+            if entry.kind is Happening.FAULT:
+                self._log.warning("fault", what=entry.text)
 
     def state(self) -> GripperState:
         """Snapshot of the gripper."""

@@ -19,13 +19,19 @@ ESTOPPED = Failure(
 NOT_ENABLED = Failure(
     category="precondition",
     code="not-enabled",
-    message="the external enable is not there",
+    message="the external enable is open, or its wire is cut",
 )
 LEASE_RAN_OUT = Failure(
     category="cancelled",
     code="lease-lost",
     message="the lease it was given under ran out",
 )
+
+HINTS = {
+    ESTOPPED.code: "release it, then reset",
+    NOT_ENABLED.code: "close the contact that `interlocks` names in the settings",
+}
+"""What a person can do about an interlock."""
 
 
 class Permission:
@@ -60,7 +66,8 @@ class Permission:
         """
         forbidden = self._forbidden
         if forbidden is not None:
-            raise Refused(forbidden.message, code=forbidden.code)
+            hints = (HINTS[forbidden.code],)
+            raise Refused(forbidden.message, code=forbidden.code, hints=hints)
 
     def check_reset(self) -> None:
         """Refuse to leave an emergency stop that is still pressed.
@@ -71,7 +78,7 @@ class Permission:
             It is.
         """
         if self._interlocks.estopped:
-            hints = ("release it, then reset",)
+            hints = (HINTS[ESTOPPED.code],)
             raise Refused(ESTOPPED.message, code=ESTOPPED.code, hints=hints)
 
     def enforce(self, now: Instant) -> None:

@@ -47,7 +47,6 @@ class Event(StrEnum):
     REACTED = "reacted"
     RESET = "reset"
     ESTOP = "estop"
-    ESTOP_RELEASED = "estop_released"
     MAINTAIN = "maintain"
     MAINTAINED = "maintained"
 
@@ -118,7 +117,7 @@ TRANSITIONS: Mapping[Machine, Mapping[Event, Machine]] = MappingProxyType(
         # Neither a fault nor a second emergency stop ends an emergency stop.
         Machine.ESTOPPED: {
             Event.LINK_LOST: Machine.OFFLINE,
-            Event.ESTOP_RELEASED: Machine.DISABLED,
+            Event.RESET: Machine.DISABLED,
             Event.ESTOP: Machine.ESTOPPED,
             Event.FAIL: Machine.ESTOPPED,
             Event.STOP: Machine.ESTOPPED,
@@ -168,7 +167,6 @@ REQUESTS = {
     Event.DISABLE: "disable",
     Event.STOP: "stop",
     Event.RESET: "reset",
-    Event.ESTOP_RELEASED: "reset",
 }
 """What clients can ask for, in their words; the rest happens by itself."""
 

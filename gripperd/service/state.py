@@ -4,6 +4,7 @@ from pydantic import Field
 
 from gripperd.config import FailMode, GripperSettings
 from gripperd.control.budget import Cause, budget
+from gripperd.control.interlocks import closed
 from gripperd.control.regulation import RegulationState
 from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Event, Grip, Machine
@@ -11,7 +12,7 @@ from gripperd.control.trust import Level
 from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
 from gripperd.service.rendering import Document, known, optional, to
-from gripperd.signals import Quality, Reading
+from gripperd.signals import Measurement, Quality, Reading
 from gripperd.units import MILLI
 
 # ruff: noqa: N815  (names carry units, and units have capitals)
@@ -60,6 +61,13 @@ class RegulationDocument(Document):
     most_kPa: float = Field(description="Bound of the correction.")
 
 
+class InterlocksDocument(Document):
+    """Whether the contacts are closed; null: not fitted, or not known."""
+
+    enable: bool | None = Field(description="False: no motion begins.")
+    estop: bool | None = Field(description="False: pressed, or its wire is cut.")
+
+
 class BudgetDocument(Document):
     """Seconds until the grip force is under the slip limit; null: it stays above."""
 
@@ -82,6 +90,7 @@ class StateDocument(Document):
     current_mA: float | None = Field(description="Commanded; null while unknown.")
     adopted: bool = Field(description="The current was found, not commanded.")
     measured: MeasuredValues
+    interlocks: InterlocksDocument
     prediction: PresentPrediction | None = Field(
         description="Null unless current, opening and model are known."
     )
@@ -115,6 +124,7 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
             opening_mm=_measured("opening", "mm", state),
             force_N=_measured("grip", "N", state),
         ),
+        interlocks=_interlocked(state.measured if fresh else None),
         prediction=_predicted(state, settings.chain) if fresh else None,
         regulation=_regulated(state.regulation),
         hold_budget=_lasting(state, settings),
@@ -122,6 +132,18 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
         fail_mode=settings.fail_mode,
         model=state.model,
     )
+
+
+def _interlocked(measured: Measurement | None) -> InterlocksDocument:
+    if measured is None:
+        return InterlocksDocument(enable=None, estop=None)
+    return InterlocksDocument(
+        enable=_contact(measured.enable), estop=_contact(measured.estop)
+    )
+
+
+def _contact(reading: Reading) -> bool | None:
+    return None if reading.quality is Quality.ABSENT else closed(reading)
 
 
 def _regulated(found: RegulationState | None) -> RegulationDocument | None:

@@ -129,6 +129,6 @@ def test_what_happens_is_told_in_the_journal(faults: Faults, journal: Journal) -
     assert [entry.text for entry in journal.since(0)] == [
         "burst: the muscle burst",
         "burst acknowledged by Ada",
-        "burst is gone",
+        "burst cleared",
         "reset",
     ]

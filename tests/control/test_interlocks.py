@@ -114,9 +114,10 @@ def test_the_state_is_adopted_before_an_emergency_stop_that_is_pressed_at_the_st
 def test_without_the_enable_no_motion_begins(ready: Stage, apple: GraspOrder) -> None:
     control(ready, 0.05, enable=OPEN)
     ready.writes.clear()
-    with pytest.raises(Refused, match="external enable is not there") as refused:
+    with pytest.raises(Refused, match="enable is open, or its wire is cut") as refused:
         ready.submit(apple)
     assert refused.value.code == "not-enabled"
+    assert "close the contact" in refused.value.hints[0]
     control(ready, 0.5, enable=OPEN)
     assert ready.writes == []
     control(ready, 0.05, enable=CLOSED)

@@ -5,6 +5,7 @@ from dataclasses import replace
 from itertools import count
 
 import pytest
+from structlog.testing import capture_logs
 
 from gripperd.bench.modules import Modules
 from gripperd.bench.rig import Rig
@@ -12,6 +13,7 @@ from gripperd.bench.server import BenchServer, serve_bench
 from gripperd.config.module_library import ModuleLibrary
 from gripperd.control.command import Command, GraspOrder, Status
 from gripperd.control.gripper import Gripper
+from gripperd.control.journal import Happening
 from gripperd.control.loop import Loop
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Grip, Machine
@@ -105,6 +107,17 @@ async def test_a_cancel_is_on_the_wire_when_it_returns(
     cancelled = await loop.cancel(command.id)
     assert cancelled.status is Status.CANCELLED
     assert loop.state().current == pytest.approx(rig.plant.current, abs=0.6e-6)
+
+
+async def test_whoever_reads_the_log_hears_of_faults(
+    loop: Loop, eventually: Eventually
+) -> None:
+    with capture_logs() as logs:
+        loop.gripper.ledger.journal.note(Happening.FAULT, "burst: 0 kPa", 0.0)
+        loop.gripper.ledger.journal.note(Happening.FAULT, "burst cleared", 1.0)
+        await eventually(lambda: any(each["event"] == "fault" for each in logs))
+    told = [each["what"] for each in logs if each["event"] == "fault"]
+    assert told == ["burst: 0 kPa", "burst cleared"]
 
 
 async def test_who_waits_gets_the_command_as_it_stands(

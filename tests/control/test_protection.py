@@ -142,8 +142,20 @@ def test_commands_in_fault_are_refused_with_what_to_do(
             "POST .../reset",
             "POST .../enable",
         )
-    with pytest.raises(Refused, match="enable is not possible"):
+    with pytest.raises(Refused, match="in fault: muscle or tube leak"):
         made.gripper.enable()
+
+
+def test_a_cause_that_is_gone_needs_no_mending(
+    chain: Chain, profiles: Profiles
+) -> None:
+    made = faulty(chain, profiles["apple"])
+    made.rig.plant.faults = HEALTHY
+    made.until(lambda: faults(made)[0].cleared_at is not None, 5.0)
+    acknowledged(made)
+    with pytest.raises(Refused) as refused:
+        made.gripper.enable()
+    assert refused.value.hints == ("POST .../reset", "POST .../enable")
 
 
 def test_a_reset_waits_for_acknowledgement_and_for_the_cause_to_be_gone(

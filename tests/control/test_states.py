@@ -36,7 +36,7 @@ fault_reaction reacted        fault
 fault_reaction stop           fault_reaction
 fault          reset          disabled
 fault          stop           fault
-estopped       estop_released disabled
+estopped       reset          disabled
 estopped       estop          estopped
 estopped       fail           estopped
 estopped       stop           estopped
@@ -76,7 +76,7 @@ def test_every_pair_is_in_the_table_or_refused_with_hints(
     if event in TRANSITIONS[state]:
         assert after(state, event) is TRANSITIONS[state][event]
         return
-    words = {Event.START: "a command", Event.ESTOP_RELEASED: "reset"}.get(event, event)
+    words = {Event.START: "a command"}.get(event, event)
     with pytest.raises(Refused, match=f"{words} is not possible while") as refused:
         after(state, event)
     assert f"while the gripper is {state}" in str(refused.value)
@@ -144,10 +144,10 @@ def test_a_stop_enables_nothing_that_was_not_enabled_before() -> None:
             assert state in ENABLED | {Machine.STOPPING}
 
 
-def test_only_its_release_or_a_lost_link_ends_an_emergency_stop() -> None:
+def test_only_a_reset_or_a_lost_link_ends_an_emergency_stop() -> None:
     allowed = TRANSITIONS[Machine.ESTOPPED]
     leaving = {event for event in allowed if allowed[event] is not Machine.ESTOPPED}
-    assert leaving == {Event.ESTOP_RELEASED, Event.LINK_LOST}
+    assert leaving == {Event.RESET, Event.LINK_LOST}
 
 
 ANYWHERE = {"open": "releasing", "contact": "holding", "doubt": "unknown"}

@@ -58,3 +58,23 @@ def test_a_bad_reading_keeps_its_cause(settings: Settings) -> None:
     state = snapshot(0.01, opening=Reading.bad("2.1 mA is under 3.6 mA"))
     found = state_document(state, settings.grippers["g0"]).measured.opening_mm
     assert (found.value, found.cause) == (None, "2.1 mA is under 3.6 mA")
+
+
+def test_each_contact_says_whether_it_is_closed(settings: Settings) -> None:
+    cut = Reading.bad("the loop is broken: 0.000 mA is below 3.6 mA")
+    for reading, expected in [
+        (Reading(1.0), True),
+        (Reading(0.0), False),
+        (cut, False),
+        (ABSENT, None),
+    ]:
+        state = snapshot(0.01, enable=reading, estop=Reading(1.0))
+        found = state_document(state, settings.grippers["g0"]).interlocks
+        assert (found.enable, found.estop) == (expected, True)
+
+
+def test_a_contact_that_was_not_read_lately_is_not_known(settings: Settings) -> None:
+    for age in (0.6, None):
+        state = snapshot(age, enable=Reading(1.0), estop=Reading(1.0))
+        found = state_document(state, settings.grippers["g0"]).interlocks
+        assert (found.enable, found.estop) == (None, None)

@@ -27,9 +27,10 @@ class PartLost:
         measured = sight.measured
         if sight.grip is Grip.HOLDING:
             self._name = sight.profile.name if sight.profile else "the part"
-            if not self._taken:
+            # A motion that ends has changed how it is held.
+            if sight.idle and not self._taken:
                 self._held = measured.grip.value, measured.opening.value
-            self._taken = True
+            self._taken = sight.idle
         elif sight.grip is Grip.PART_LOST:
             force, opening = self._held
             was = f"{_newtons(force)} at {_millimetres(opening)}"

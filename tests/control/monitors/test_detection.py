@@ -64,6 +64,19 @@ def test_a_part_that_is_taken_away_is_noticed_in_time(
     assert made.state.machine is Machine.READY
 
 
+def test_a_lost_part_was_held_as_hard_as_it_was_adjusted_to(
+    chain: Chain, profiles: Profiles
+) -> None:
+    made = holding(chain, profiles["apple"])
+    assert made.complete(Adjust(force=20.0)).status is Status.SUCCEEDED
+    made.run(1.0)
+    made.rig.plant.remove()
+    _, fault = appeared(made, Cause.PART_LOST, DETECTION[Cause.PART_LOST])
+    told = re.search(r"jaws: ([\d.]+) N", fault.message)
+    assert told is not None
+    assert float(told[1]) == pytest.approx(20.0, rel=0.05)
+
+
 def test_a_hole_and_an_empty_supply_are_told_apart(
     chain: Chain, profiles: Profiles
 ) -> None:
