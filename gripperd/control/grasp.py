@@ -152,7 +152,8 @@ class Grasp:
     def _approach(self, measured: Measurement, dt: float) -> Outcome | None:
         if self._force.touching:
             return self._contact(measured)
-        goal = min(self._near, self._limit)
+        # Never opening: what the jaws carry may be too light to be felt.
+        goal = max(min(self._near, self._limit), self.ramp.current)
         if self.ramp.towards(goal, self.order.profile.approach, dt):
             self._enter(Phase.TOUCH)
         return None

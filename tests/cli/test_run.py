@@ -218,10 +218,12 @@ def test_a_runtime_dir_that_is_too_long_is_one_clear_line(
 
 def test_an_unusable_configuration_ends_with_78(tmp_path: Path) -> None:
     settings = settings_file(tmp_path)
-    settings.write_text(settings.read_text().replace("rate_Hz: 100", "rate_Hz: 5000"))
+    text = settings.read_text().replace("rate_Hz: 100", "rate_Hz: 5000")
+    settings.write_text(text)
+    line = text[: text.index("rate_Hz: 5000")].count("\n") + 1
     for command in (("run", "--config"), ("config", "check")):
         ended = gripperd(*command, str(settings))
         assert ended.returncode == 78
         assert ended.stderr == (
-            f"error: {settings}:36: grippers.g0.rate_Hz: 5000 Hz is above 500 Hz\n"
+            f"error: {settings}:{line}: grippers.g0.rate_Hz: 5000 Hz is above 500 Hz\n"
         )
