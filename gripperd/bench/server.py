@@ -10,7 +10,7 @@ from typing import NamedTuple, cast
 from gripperd.bench.modbus_speaker import TcpSpeaker
 from gripperd.bench.modules import Modules
 from gripperd.bench.speaker import Speaker
-from gripperd.bench.wire_faults import Asked, Kind, WireFault, WireFaults
+from gripperd.bench.wire_faults import Asked, WireFault, WireFaultKind, WireFaults
 from gripperd.errors import BadReply, Refused
 
 TICK = 0.02
@@ -76,7 +76,7 @@ class BenchServer:
         if fault is None:
             return Reply(self.speaker.answer(frame))
         self._befall(fault, asked)
-        delay = fault.delay if fault.kind is Kind.LATE else 0.0
+        delay = fault.delay if fault.kind is WireFaultKind.LATE else 0.0
         return Reply(self.speaker.spoilt(fault, frame), delay)
 
     async def live(self) -> None:
@@ -90,11 +90,11 @@ class BenchServer:
         units = asked.units if fault.unit is None else {fault.unit}
         for unit in units:
             match fault.kind:
-                case Kind.WATCHDOG_TRIPPED:
+                case WireFaultKind.WATCHDOG_TRIPPED:
                     self.modules.trip(unit)
-                case Kind.OPEN_LOOP:
+                case WireFaultKind.OPEN_LOOP:
                     self.modules.cut_loop(unit)
-                case Kind.POWER_CYCLED:
+                case WireFaultKind.POWER_CYCLED:
                     self.modules.power_cycle(unit)
                 case _:
                     pass

@@ -6,7 +6,7 @@ from typing import ClassVar, TypeAlias
 
 from gripperd.bench.channels import Outputs
 from gripperd.bench.modules import Modules
-from gripperd.bench.wire_faults import Asked, Kind, WireFault
+from gripperd.bench.wire_faults import Asked, WireFault, WireFaultKind
 
 NOISE = b"\x00\xff"
 """What a line picks up when a driver switches on."""
@@ -32,16 +32,16 @@ class Speaker(ABC):
 
     def __init__(self, modules: Modules) -> None:
         self.modules = modules
-        self._spoilt: dict[Kind, Spoil] = {
-            Kind.LOST: lambda frame, reply: b"",
-            Kind.CUT: lambda frame, reply: reply[:-CUT_OFF],
-            Kind.NOISE: lambda frame, reply: NOISE + reply,
-            Kind.LOCAL_ECHO: lambda frame, reply: frame + reply,
-            Kind.GARBLED: self._garbled,
-            Kind.WRONG_UNIT: self._from_another_unit,
-            Kind.WRONG_FUNCTION: self._to_another_function,
-            Kind.WRONG_ECHO: self._with_another_value,
-            Kind.SHORT: self._shortened,
+        self._spoilt: dict[WireFaultKind, Spoil] = {
+            WireFaultKind.LOST: lambda frame, reply: b"",
+            WireFaultKind.CUT: lambda frame, reply: reply[:-CUT_OFF],
+            WireFaultKind.NOISE: lambda frame, reply: NOISE + reply,
+            WireFaultKind.LOCAL_ECHO: lambda frame, reply: frame + reply,
+            WireFaultKind.GARBLED: self._garbled,
+            WireFaultKind.WRONG_UNIT: self._from_another_unit,
+            WireFaultKind.WRONG_FUNCTION: self._to_another_function,
+            WireFaultKind.WRONG_ECHO: self._with_another_value,
+            WireFaultKind.SHORT: self._shortened,
         }
 
     @abstractmethod
@@ -75,11 +75,11 @@ class Speaker(ABC):
 
     def spoilt(self, fault: WireFault, frame: bytes) -> bytes:
         """Reply to a request that meets a fault."""
-        if fault.kind is Kind.EXCEPTION:
+        if fault.kind is WireFaultKind.EXCEPTION:
             return self.refusal(frame, fault.code)
         reply = self.answer(frame)
         spoil = self._spoilt.get(fault.kind)
-        if spoil is None or not (reply or fault.kind is Kind.LOCAL_ECHO):
+        if spoil is None or not (reply or fault.kind is WireFaultKind.LOCAL_ECHO):
             return reply
         return spoil(frame, reply)
 

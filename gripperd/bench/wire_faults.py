@@ -23,7 +23,7 @@ MOST_WAITING = 10_000
 """Requests that can be spoiled ahead of time."""
 
 
-class Kind(StrEnum):
+class WireFaultKind(StrEnum):
     """What goes wrong with one request."""
 
     NONE = "none"
@@ -56,11 +56,13 @@ class Kind(StrEnum):
     """The module was off and on: outputs have their power-on values."""
 
 
-OF_OUTPUTS = frozenset({Kind.WATCHDOG_TRIPPED, Kind.OPEN_LOOP})
+OF_OUTPUTS = frozenset({WireFaultKind.WATCHDOG_TRIPPED, WireFaultKind.OPEN_LOOP})
 """They befall output modules alone."""
-LASTING = OF_OUTPUTS | {Kind.POWER_CYCLED}
+LASTING = OF_OUTPUTS | {WireFaultKind.POWER_CYCLED}
 """They change a module; the reply is honest."""
-PASSING = tuple(kind for kind in Kind if kind not in LASTING | {Kind.NONE})
+PASSING = tuple(
+    kind for kind in WireFaultKind if kind not in LASTING | {WireFaultKind.NONE}
+)
 """They spoil one exchange, and may be drawn at random."""
 
 
@@ -84,7 +86,7 @@ class WireFault:
         A value is out of its range; the key carries the unit.
     """
 
-    kind: Kind
+    kind: WireFaultKind
     code: int = Refusal.DEVICE_FAILURE
     """Exception code of `EXCEPTION`."""
     delay: float = 1.0
@@ -110,9 +112,9 @@ class WireFault:
         """Whether a request can meet it."""
         if self.unit is not None and self.unit not in asked.units:
             return False
-        if self.kind is Kind.WRONG_ECHO:
+        if self.kind is WireFaultKind.WRONG_ECHO:
             return asked.writes
-        if self.kind is Kind.SHORT:
+        if self.kind is WireFaultKind.SHORT:
             return not asked.writes
         return asked.drives or self.kind not in OF_OUTPUTS
 
@@ -171,7 +173,7 @@ class WireFaults:
         self._waiting.popleft()
         if head.times > 1:
             self._waiting.appendleft(replace(head, times=head.times - 1))
-        return None if head.kind is Kind.NONE else head
+        return None if head.kind is WireFaultKind.NONE else head
 
     def _drawn(self, asked: Asked) -> WireFault | None:
         if not self.chance or self._rng.random() >= self.chance:

@@ -11,7 +11,7 @@ from gripperd.bench.object import BenchObject
 from gripperd.bench.pace import Pace
 from gripperd.bench.speaker import Speaker
 from gripperd.bench.text_speaker import DconSpeaker, ItvSpeaker
-from gripperd.bench.wire_faults import Kind, WireFault
+from gripperd.bench.wire_faults import WireFault, WireFaultKind
 from gripperd.config.complaint import did_you_mean
 from gripperd.config.module_library import ModuleLibrary, load_module
 from gripperd.config.wording import shown
@@ -139,8 +139,9 @@ def wire_fault(text: str) -> WireFault:
         It is none.
     """
     kind, _, values = text.partition(":")
-    if kind not in set(Kind):
-        message = f"--fault {shown(kind)} is no fault; {did_you_mean(kind, list(Kind))}"
+    if kind not in set(WireFaultKind):
+        meant = did_you_mean(kind, list(WireFaultKind))
+        message = f"--fault {shown(kind)} is no fault; {meant}"
         raise InputError(message, key="--fault")
     numbers: dict[str, int] = {}
     for pair in filter(None, values.split(",")):
@@ -150,7 +151,7 @@ def wire_fault(text: str) -> WireFault:
             raise InputError(f"{message} keys are {', '.join(KEYS)}", key="--fault")
         numbers[key] = int(value)
     delay = numbers.pop("delay_ms", 1000) * MILLI
-    return WireFault(kind=Kind(kind), delay=delay, **numbers)
+    return WireFault(kind=WireFaultKind(kind), delay=delay, **numbers)
 
 
 def lying(name: str, profiles: Mapping[str, Profile]) -> BenchObject:

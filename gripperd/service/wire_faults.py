@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gripperd.bench.wire_faults import MOST_WAITING, Kind, WireFault
+from gripperd.bench.wire_faults import MOST_WAITING, WireFault, WireFaultKind
 from gripperd.config.section import Section
 from gripperd.link.bench import BenchState, SetWireFaults
 from gripperd.service.rendering import GIVEN, Document, to
@@ -17,7 +17,7 @@ MOST_TOLD = 100
 class WireFaultRequest(Section):
     """What one request on the wire is to meet."""
 
-    kind: Annotated[Kind, Field(strict=False)]
+    kind: Annotated[WireFaultKind, Field(strict=False)]
     code: int = Field(default=4, ge=1, le=255, description="Of an exception.")
     delay_ms: float = Field(default=1000, ge=0, le=600_000, description="If late.")
     unit: int | None = Field(
@@ -60,7 +60,7 @@ class WireFaultsRequest(Section):
 class WireFaultDocument(Document):
     """A fault that waits for its request."""
 
-    kind: Kind
+    kind: WireFaultKind
     code: int
     delay_ms: float
     unit: int | None

@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from gripperd.bench.rig import Rig
-from gripperd.bench.wire_faults import Asked, Kind, WireFault, WireFaults
+from gripperd.bench.wire_faults import Asked, WireFault, WireFaultKind, WireFaults
 from gripperd.drivers.analog import AnalogRig
 from gripperd.drivers.wiring import OutputWiring
 from gripperd.errors import (
@@ -37,24 +37,30 @@ def queue(*faults: WireFault, chance: float = 0.0, seed: int = 1) -> WireFaults:
 
 def test_requests_meet_faults_in_their_order() -> None:
     faults = queue(
-        WireFault(kind=Kind.NONE),
-        WireFault(kind=Kind.LOST, times=2),
-        WireFault(kind=Kind.LATE),
+        WireFault(kind=WireFaultKind.NONE),
+        WireFault(kind=WireFaultKind.LOST, times=2),
+        WireFault(kind=WireFaultKind.LATE),
     )
     met = [faults.meet(READ) for _ in range(5)]
     kinds = [fault.kind if fault else None for fault in met]
-    assert kinds == [None, Kind.LOST, Kind.LOST, Kind.LATE, None]
+    assert kinds == [
+        None,
+        WireFaultKind.LOST,
+        WireFaultKind.LOST,
+        WireFaultKind.LATE,
+        None,
+    ]
     assert faults.waiting == ()
 
 
 @pytest.mark.parametrize(
     ("fault", "passes", "meets"),
     [
-        (WireFault(kind=Kind.WRONG_ECHO), READ, WRITE),
-        (WireFault(kind=Kind.SHORT), WRITE, READ),
-        (WireFault(kind=Kind.WATCHDOG_TRIPPED), READ, WRITE),
-        (WireFault(kind=Kind.OPEN_LOOP), READ, WRITE),
-        (WireFault(kind=Kind.LOST, unit=1), READ, WRITE),
+        (WireFault(kind=WireFaultKind.WRONG_ECHO), READ, WRITE),
+        (WireFault(kind=WireFaultKind.SHORT), WRITE, READ),
+        (WireFault(kind=WireFaultKind.WATCHDOG_TRIPPED), READ, WRITE),
+        (WireFault(kind=WireFaultKind.OPEN_LOOP), READ, WRITE),
+        (WireFault(kind=WireFaultKind.LOST, unit=1), READ, WRITE),
     ],
 )
 def test_a_fault_waits_for_a_request_that_it_can_befall(
@@ -74,7 +80,11 @@ def test_chance_is_the_same_with_the_same_seed_and_as_frequent_as_told() -> None
     share = sum(fault is not None for fault in met) / 4000
     assert share == pytest.approx(0.25 * 10 / 11, abs=0.035)
     kinds = {fault.kind for fault in met if fault}
-    assert not kinds & {Kind.WATCHDOG_TRIPPED, Kind.OPEN_LOOP, Kind.POWER_CYCLED}
+    assert not kinds & {
+        WireFaultKind.WATCHDOG_TRIPPED,
+        WireFaultKind.OPEN_LOOP,
+        WireFaultKind.POWER_CYCLED,
+    }
 
 
 @pytest.mark.parametrize(
@@ -83,7 +93,7 @@ def test_chance_is_the_same_with_the_same_seed_and_as_frequent_as_told() -> None
 )
 def test_an_impossible_fault_is_refused(key: str, value: float) -> None:
     with pytest.raises(InputError, match=key):
-        WireFault(**{"kind": Kind.LATE, key: value})  # type: ignore[arg-type]
+        WireFault(**{"kind": WireFaultKind.LATE, key: value})  # type: ignore[arg-type]
 
 
 def test_a_chance_that_is_no_probability_is_refused() -> None:
@@ -94,17 +104,17 @@ def test_a_chance_that_is_no_probability_is_refused() -> None:
 HOLDING = Read(1, Table.HOLDING, 0, 4)
 SET = Write(1, 0, (10_700,))
 MODBUS = [
-    (Kind.LATE, HOLDING, ReplyTimeout),
-    (Kind.LOST, SET, ReplyTimeout),
-    (Kind.GARBLED, HOLDING, LinkError),
-    (Kind.WRONG_UNIT, HOLDING, BadReply),
-    (Kind.WRONG_FUNCTION, HOLDING, BadReply),
-    (Kind.WRONG_FUNCTION, SET, BadReply),
-    (Kind.WRONG_ECHO, SET, BadReply),
-    (Kind.SHORT, HOLDING, BadReply),
-    (Kind.CUT, HOLDING, ReplyTimeout),
-    (Kind.NOISE, HOLDING, LinkError),
-    (Kind.LOCAL_ECHO, HOLDING, BadReply),
+    (WireFaultKind.LATE, HOLDING, ReplyTimeout),
+    (WireFaultKind.LOST, SET, ReplyTimeout),
+    (WireFaultKind.GARBLED, HOLDING, LinkError),
+    (WireFaultKind.WRONG_UNIT, HOLDING, BadReply),
+    (WireFaultKind.WRONG_FUNCTION, HOLDING, BadReply),
+    (WireFaultKind.WRONG_FUNCTION, SET, BadReply),
+    (WireFaultKind.WRONG_ECHO, SET, BadReply),
+    (WireFaultKind.SHORT, HOLDING, BadReply),
+    (WireFaultKind.CUT, HOLDING, ReplyTimeout),
+    (WireFaultKind.NOISE, HOLDING, LinkError),
+    (WireFaultKind.LOCAL_ECHO, HOLDING, BadReply),
 ]
 
 
@@ -120,7 +130,7 @@ async def test_modbus_is_spoilt_once_and_the_driver_notices(
     rig: Rig,
     tmp_path: Path,
     kind: str,
-    fault: Kind,
+    fault: WireFaultKind,
     request_: Read | Write,
     error: type[LinkError],
 ) -> None:
@@ -142,7 +152,7 @@ async def test_an_exception_is_given_and_nothing_is_done(
 ) -> None:
     async with on_line(kind, rig, tmp_path, "waveshare_ao_8ch") as line:
         await line.bus.ask(HOLDING)
-        line.bench.faults.set([WireFault(kind=Kind.EXCEPTION, code=code)])
+        line.bench.faults.set([WireFault(kind=WireFaultKind.EXCEPTION, code=code)])
         with pytest.raises(DeviceRefused) as refused:
             await line.bus.ask(Write(1, 0, (10_700,), multiple=True))
         assert refused.value.exception_code == code
@@ -152,7 +162,7 @@ async def test_an_exception_is_given_and_nothing_is_done(
 
 async def test_the_echo_of_a_line_is_called_so(rig: Rig, tmp_path: Path) -> None:
     async with on_line("rtu", rig, tmp_path, "waveshare_ao_8ch") as line:
-        line.bench.faults.set([WireFault(kind=Kind.LOCAL_ECHO)])
+        line.bench.faults.set([WireFault(kind=WireFaultKind.LOCAL_ECHO)])
         with pytest.raises(LocalEcho):
             await line.bus.ask(HOLDING)
 
@@ -160,20 +170,20 @@ async def test_the_echo_of_a_line_is_called_so(rig: Rig, tmp_path: Path) -> None
 READ_BACK = dcon.Ask(1, "60", dcon.Lead.SETTING, dcon.Good.ADDRESS, 7)
 SET_TEXT = dcon.Ask(1, "0+10.700")
 DCON = [
-    (Kind.LATE, SET_TEXT, ReplyTimeout),
-    (Kind.LOST, SET_TEXT, ReplyTimeout),
-    (Kind.GARBLED, SET_TEXT, BadReply),
-    (Kind.GARBLED, READ_BACK, BadReply),
-    (Kind.WRONG_UNIT, READ_BACK, BadReply),
-    (Kind.WRONG_FUNCTION, SET_TEXT, BadReply),
-    (Kind.WRONG_FUNCTION, READ_BACK, BadReply),
-    (Kind.WRONG_ECHO, SET_TEXT, BadReply),
-    (Kind.SHORT, READ_BACK, BadReply),
-    (Kind.CUT, READ_BACK, ReplyTimeout),
-    (Kind.EXCEPTION, READ_BACK, DeviceRefused),
-    (Kind.NOISE, READ_BACK, BadReply),
-    (Kind.LOCAL_ECHO, READ_BACK, LocalEcho),
-    (Kind.WATCHDOG_TRIPPED, SET_TEXT, WatchdogTripped),
+    (WireFaultKind.LATE, SET_TEXT, ReplyTimeout),
+    (WireFaultKind.LOST, SET_TEXT, ReplyTimeout),
+    (WireFaultKind.GARBLED, SET_TEXT, BadReply),
+    (WireFaultKind.GARBLED, READ_BACK, BadReply),
+    (WireFaultKind.WRONG_UNIT, READ_BACK, BadReply),
+    (WireFaultKind.WRONG_FUNCTION, SET_TEXT, BadReply),
+    (WireFaultKind.WRONG_FUNCTION, READ_BACK, BadReply),
+    (WireFaultKind.WRONG_ECHO, SET_TEXT, BadReply),
+    (WireFaultKind.SHORT, READ_BACK, BadReply),
+    (WireFaultKind.CUT, READ_BACK, ReplyTimeout),
+    (WireFaultKind.EXCEPTION, READ_BACK, DeviceRefused),
+    (WireFaultKind.NOISE, READ_BACK, BadReply),
+    (WireFaultKind.LOCAL_ECHO, READ_BACK, LocalEcho),
+    (WireFaultKind.WATCHDOG_TRIPPED, SET_TEXT, WatchdogTripped),
 ]
 
 
@@ -181,7 +191,7 @@ DCON = [
 async def test_dcon_is_spoilt_once_and_the_driver_notices(
     rig: Rig,
     tmp_path: Path,
-    fault: Kind,
+    fault: WireFaultKind,
     request_: dcon.Ask,
     error: type[LinkError],
 ) -> None:
@@ -196,16 +206,16 @@ async def test_dcon_is_spoilt_once_and_the_driver_notices(
 
 
 ITV = [
-    (Kind.LATE, itv.Set(428), ReplyTimeout),
-    (Kind.LOST, itv.Set(428), ReplyTimeout),
-    (Kind.GARBLED, itv.Query.SET_POINT, BadReply),
-    (Kind.WRONG_FUNCTION, itv.Query.SET_POINT, BadReply),
-    (Kind.WRONG_ECHO, itv.Set(428), BadReply),
-    (Kind.SHORT, itv.Query.SET_POINT, BadReply),
-    (Kind.CUT, itv.Query.SET_POINT, ReplyTimeout),
-    (Kind.EXCEPTION, itv.Set(428), DeviceRefused),
-    (Kind.NOISE, itv.Query.SET_POINT, BadReply),
-    (Kind.LOCAL_ECHO, itv.Query.SET_POINT, BadReply),
+    (WireFaultKind.LATE, itv.Set(428), ReplyTimeout),
+    (WireFaultKind.LOST, itv.Set(428), ReplyTimeout),
+    (WireFaultKind.GARBLED, itv.Query.SET_POINT, BadReply),
+    (WireFaultKind.WRONG_FUNCTION, itv.Query.SET_POINT, BadReply),
+    (WireFaultKind.WRONG_ECHO, itv.Set(428), BadReply),
+    (WireFaultKind.SHORT, itv.Query.SET_POINT, BadReply),
+    (WireFaultKind.CUT, itv.Query.SET_POINT, ReplyTimeout),
+    (WireFaultKind.EXCEPTION, itv.Set(428), DeviceRefused),
+    (WireFaultKind.NOISE, itv.Query.SET_POINT, BadReply),
+    (WireFaultKind.LOCAL_ECHO, itv.Query.SET_POINT, BadReply),
 ]
 
 
@@ -213,7 +223,7 @@ ITV = [
 async def test_a_regulator_is_spoilt_once_and_the_driver_notices(
     rig: Rig,
     tmp_path: Path,
-    fault: Kind,
+    fault: WireFaultKind,
     request_: itv.Request,
     error: type[LinkError],
 ) -> None:
@@ -240,7 +250,7 @@ async def test_a_tripped_watchdog_is_noticed_and_not_driven(
         valve = adam(line)
         await valve.read(0.0)
         await valve.write(0.012)
-        line.bench.faults.set([WireFault(kind=Kind.WATCHDOG_TRIPPED)])
+        line.bench.faults.set([WireFault(kind=WireFaultKind.WATCHDOG_TRIPPED)])
         with pytest.raises(WatchdogTripped):
             await valve.read(1.0)
         with pytest.raises(WatchdogTripped):
@@ -255,7 +265,7 @@ async def test_an_open_loop_is_a_bad_reading_until_it_is_mended(
         valve = adam(line)
         await valve.read(0.0)
         await valve.write(0.012)
-        line.bench.faults.set([WireFault(kind=Kind.OPEN_LOOP)])
+        line.bench.faults.set([WireFault(kind=WireFaultKind.OPEN_LOOP)])
         measured = (await valve.read(1.0)).current
         assert measured.quality is Quality.BAD
         assert "the loop is open" in measured.cause
@@ -270,5 +280,5 @@ async def test_a_power_cycle_shows_in_the_read_back(rig: Rig, tmp_path: Path) ->
         valve = adam(line)
         await valve.read(0.0)
         await valve.write(0.012)
-        line.bench.faults.set([WireFault(kind=Kind.POWER_CYCLED)])
+        line.bench.faults.set([WireFault(kind=WireFaultKind.POWER_CYCLED)])
         assert (await valve.read(1.0)).current.value == pytest.approx(0.004)

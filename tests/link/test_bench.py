@@ -4,7 +4,7 @@ from gripperd.bench.faults import BenchFaults
 from gripperd.bench.object import BenchObject
 from gripperd.bench.placed import ObjectState
 from gripperd.bench.sensors import Channel
-from gripperd.bench.wire_faults import Kind, WireFault
+from gripperd.bench.wire_faults import WireFault, WireFaultKind
 from gripperd.errors import BadReply, InputError
 from gripperd.link.bench import (
     BenchState,
@@ -29,7 +29,7 @@ FAULTS = BenchFaults(
     frozen=frozenset({Channel.PRESSURE, Channel.OPENING}),
 )
 
-LATE = WireFault(kind=Kind.LATE, delay=0.5, unit=2, times=3)
+LATE = WireFault(kind=WireFaultKind.LATE, delay=0.5, unit=2, times=3)
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ LATE = WireFault(kind=Kind.LATE, delay=0.5, unit=2, times=3)
         PlaceObject(EGG),
         RemoveObject(),
         SetFaults(FAULTS),
-        SetWireFaults((LATE, WireFault(kind=Kind.EXCEPTION, code=6)), 0.1),
+        SetWireFaults((LATE, WireFault(kind=WireFaultKind.EXCEPTION, code=6)), 0.1),
         MendWire(),
     ],
     ids=lambda request: type(request).__name__,

@@ -22,6 +22,9 @@ OPERATIONS = {
     "POST /v1/grippers/{gripper}/stop",
     "POST /v1/grippers/{gripper}/enable",
     "POST /v1/grippers/{gripper}/disable",
+    "POST /v1/grippers/{gripper}/reset",
+    "GET /v1/grippers/{gripper}/faults",
+    "POST /v1/grippers/{gripper}/faults/{id}/acknowledge",
     "GET /v1/history",
     "GET /v1/events",
     "GET /v1/grippers/{gripper}/lease",
@@ -51,6 +54,8 @@ OPERATIONS = {
     "DELETE /v1/bench/object",
     "PUT /v1/bench/faults",
     "DELETE /v1/bench/faults",
+    "PUT /v1/bench/wire-faults",
+    "DELETE /v1/bench/wire-faults",
 }
 
 
