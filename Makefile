@@ -9,8 +9,9 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 run: $(VENV)/installed
 	$(BIN)/gripperd run
 
+# Many tests wait for processes; those of one file share what it started.
 test: $(VENV)/developing
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 # All of them, unless ONLY names some: physics, plant, bus, faults, outage, latency.
 bench: $(VENV)/developing

@@ -6,10 +6,12 @@ from functools import cache
 import pytest
 
 from gripperd.bench.channels import Inputs
+from gripperd.bench.faults import BenchFaults
 from gripperd.bench.modbus_speaker import RtuSpeaker, TcpSpeaker
 from gripperd.bench.modules import Fitted, Modules
 from gripperd.bench.register_device import RegisterDevice
 from gripperd.bench.rig import Rig
+from gripperd.bench.sensors import Channel
 from gripperd.bench.text_speaker import DconSpeaker, ItvSpeaker
 from gripperd.errors import DeviceRefused, InputError
 from gripperd.protocol.mbap import ModbusTcp
@@ -240,7 +242,8 @@ def test_a_broken_loop_shows_in_the_status_of_modules_that_have_one(rig: Rig) ->
 
 def test_a_broken_loop_of_a_coupler_shows_in_the_value(rig: Rig) -> None:
     modules = Modules(rig, *fitted("wago_750_455"))
-    assert ask(modules, Read(1, INPUT, 3)) == [0x0003]
+    rig.plant.faults = BenchFaults(broken=frozenset({Channel.PRESSURE}))
+    assert ask(modules, Read(1, INPUT, 0)) == [0x0003]
 
 
 def test_below_its_range_an_unsigned_count_is_0(rig: Rig) -> None:

@@ -7,8 +7,9 @@ from enum import StrEnum
 from pathlib import Path
 from random import Random
 
+from gripperd.bench import contacts
 from gripperd.bench.rig import Rig
-from gripperd.bench.sensors import Sensor, SensorSettings
+from gripperd.bench.sensors import Channel, Sensor, SensorSettings
 from gripperd.config import GripperSettings, load_settings, shipped
 from gripperd.drivers.bus import ModbusBus
 from gripperd.protocol.modbus import WRITE_REGISTER, Table
@@ -49,6 +50,7 @@ class FarRig:
         sensors = {
             name: Sensor(wiring.scale, noise=5e-4)
             for name, wiring in GRIPPER.input.sensors.items()
+            if name in set(Channel)
         }
         self.rig = Rig(GRIPPER.chain, Random(1), sensors=SensorSettings(**sensors))
         self.far = far
@@ -85,7 +87,8 @@ class FarRig:
 
     def _read(self, asked: Asked) -> list[int]:
         if asked.pdu[0] == Table.INPUT:
-            return [round(current / MICRO) for current in self.rig.read_inputs()]
+            currents = *self.rig.read_inputs(), *contacts.currents(set())
+            return [round(current / MICRO) for current in currents][: asked.value]
         if asked.address >= RANGE_CODES:
             return [IN_MICROAMPERE] * asked.value
         return [self.output if asked.address == 0 else 0] * asked.value

@@ -41,7 +41,8 @@ def test_only_the_owner_gives_commands(daemon: Daemon, token: str) -> None:
 
 def test_a_stop_needs_no_lease(daemon: Daemon, token: str) -> None:
     headers = {"lease-token": token}
-    given = daemon.http.post(COMMANDS, json=RELEASE, headers=headers)
+    grasp = {"type": "grasp", "profile": "raw_egg"}
+    given = daemon.http.post(COMMANDS, json=grasp, headers=headers)
     assert daemon.http.post("/v1/grippers/g0/stop").status_code == 200
     stopped = daemon.http.get(given.headers["location"]).json()
     assert stopped["error"]["code"] == "stopped"
