@@ -31,8 +31,8 @@ STOPS = 10
 TIMEOUTS = {
     Fault.TCP_SILENT: 0.2,
     Fault.TCP_CLOSED: 0.2,
-    Fault.RTU_SILENT: 0.3,
-    Fault.RTU_UNPLUGGED: 0.3,
+    Fault.RTU_SILENT: 0.25,
+    Fault.RTU_UNPLUGGED: 0.25,
 }
 
 
