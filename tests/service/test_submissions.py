@@ -12,6 +12,8 @@ RELEASE = {"type": "release"}
 
 def busy(daemon: Daemon) -> None:
     """Have something running, so that what is given now waits."""
+    # What was cancelled after it had begun brings the jaws to rest first.
+    daemon.until("/v1/grippers/g0", lambda s: s["machine"] in ("ready", "executing"))
     if daemon.http.get("/v1/grippers/g0").json()["machine"] == "ready":
         daemon.http.post(COMMANDS, json={"type": "grasp", "profile": "grape"})
 
