@@ -8,7 +8,7 @@ import numpy as np
 from gripperd.diagnose.course import Course
 from gripperd.diagnose.cycle import cycles
 from gripperd.diagnose.level import levels
-from gripperd.diagnose.noise import Noise, quick_noise
+from gripperd.diagnose.noise import Noise, coarse_step, quick_noise
 from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.row import rows
 from gripperd.diagnose.smoothing import Smooth
@@ -46,11 +46,13 @@ def courses(
         for piece in _pieces(_with_contraction(run, rest_length))
     ]
     names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
-    noises = {
-        name: quick_noise(
-            sweep.columns[name] for sweep in sweeps if name in sweep.columns
-        )
+    readings = {
+        name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
         for name in names
+    }
+    noises = {
+        name: quick_noise(columns, coarse_step(columns))
+        for name, columns in readings.items()
     }
     for name, std in recording.noise.items():
         if name in noises and std > noises[name].std:

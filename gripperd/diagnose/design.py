@@ -22,7 +22,7 @@ BROKEN = 0.065
 """Largest bias of a transmitter in use, of full scale. [-]"""
 STROKE = 0.25
 """Contraction of a fluidic muscle: the full scale of its length. [-]"""
-SPOILT = 0.12
+SPOILT = 0.08
 """The same of its gain. [-]"""
 BIASES = ("N", "kPa")
 FAINT = 1e-4

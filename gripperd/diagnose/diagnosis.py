@@ -31,6 +31,7 @@ from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
 from gripperd.diagnose.holdout import Split, split
 from gripperd.diagnose.named import Named, named
 from gripperd.diagnose.next_experiment import Proposal, proposal
+from gripperd.diagnose.overstepped import with_overstepped
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
 from gripperd.diagnose.problem import Problem
@@ -162,6 +163,7 @@ def _diagnosed(
     if length_is_open(train, best, tolerances):
         progress("rest length", 0.8)
         best = with_other_length(train, best, listed, rng)
+    best = with_overstepped(found, best, listed)
     progress("verdict", 0.9)
     return _told(recording, parts, found, best, untested, seed)
 

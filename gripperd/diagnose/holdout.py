@@ -71,7 +71,7 @@ def _spared(courses: Sequence[Course]) -> set[int]:
     inner = [
         index
         for index in range(1, len(courses))
-        if _inside(courses, index) and not _still(courses[index], top)
+        if inside(courses, index) and not _still(courses[index], top)
     ] or list(range(1, len(courses)))
     moving = [index for index in inner if _travelled(courses[index])]
     resting = [index for index in inner if index not in moving]
@@ -112,7 +112,7 @@ def _still(course: Course, top: float) -> bool:
     return bool(high - low <= HELD * top)
 
 
-def _inside(courses: Sequence[Course], index: int) -> bool:
+def inside(courses: Sequence[Course], index: int) -> bool:
     """Whether other sweeps reach as far as this one, in every input."""
     for name in ("current", "pressure", "contraction", "temperature"):
         own = courses[index].level(name)

@@ -6,7 +6,7 @@ import numpy as np
 
 from gripperd.diagnose.course import Course, is_table
 from gripperd.diagnose.drift import thinned, with_drift
-from gripperd.diagnose.noise import Noise, quick_noise
+from gripperd.diagnose.noise import Noise, coarse_step, quick_noise
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.quiet import driven, vented
@@ -40,7 +40,8 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
     found: dict[Signal, Noise] = {}
     for signal in problem.signals:
         indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
-        noise = quick_noise(residuals[i] for i in indices)
+        step = coarse_step(c.column(signal.value) for c in problem.courses)
+        noise = quick_noise((residuals[i] for i in indices), step)
         if is_table(problem.courses):
             # Neighbours are no repeats of each other; instruments of a test stand.
             noise = Noise(POINTS * problem.full_scale[signal], 0.0)

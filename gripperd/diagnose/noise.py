@@ -41,7 +41,7 @@ class Noise:
         return float(np.hypot(self.std, self.drift))
 
 
-def quick_noise(pieces: Iterable[Array]) -> Noise:
+def quick_noise(pieces: Iterable[Array], step: float = 0.0) -> Noise:
     """Standard deviation and correlation of neighbours, from differences.
 
     With ``v_k`` half the mean square of differences over k samples, first-order
@@ -53,9 +53,11 @@ def quick_noise(pieces: Iterable[Array]) -> Noise:
     ----------
     pieces
         Columns of runs, shape ``(n,)`` each, in order of time.
+    step
+        Of the converter that gave them, see :func:`coarse_step`. [unit of the column]
     """
     pieces = [piece[np.isfinite(piece)] for piece in pieces]
-    v1, v2, v3 = (_spread(pieces, lag) for lag in (1, 2, 3))
+    v1, v2, v3 = (_spread(pieces, lag, step) for lag in (1, 2, 3))
     if v1 <= 0:
         return Noise(_resolution(pieces), 0.0)
     r = float(np.clip(v2 / v1 - 1, 0.0, 0.9))
@@ -66,7 +68,21 @@ def quick_noise(pieces: Iterable[Array]) -> Noise:
     return Noise(float(np.sqrt(v1 / (1 - r))), r)
 
 
-def _spread(pieces: list[Array], lag: int) -> float:
+def coarse_step(pieces: Iterable[Array]) -> float:
+    """Step of a converter so coarse that most readings repeat; 0 of a finer one.
+
+    Parameters
+    ----------
+    pieces
+        Readings of runs as they came, shape ``(n,)`` each, in order of time.
+    """
+    changes = [np.abs(np.diff(piece[np.isfinite(piece)])) for piece in pieces]
+    every = np.concatenate([np.empty(0), *changes])
+    moved = every[every > 0]
+    return float(np.median(moved)) if 0 < moved.size < 0.5 * every.size else 0.0
+
+
+def _spread(pieces: list[Array], lag: int, step: float) -> float:
     """Half the mean square of differences over a lag, robust, without their trend."""
     found: list[Array] = []
     for piece in pieces:
@@ -76,7 +92,7 @@ def _spread(pieces: list[Array], lag: int) -> float:
     if not found:
         return 0.0
     changes = np.concatenate(found)
-    limit = 4 * CONSISTENT * np.median(np.abs(changes))
+    limit = 4 * max(CONSISTENT * float(np.median(np.abs(changes))), step)
     inside = changes[np.abs(changes) <= limit] if limit > 0 else changes
     return float(np.mean(inside**2)) / 2
 

@@ -54,10 +54,16 @@ class Polished:
     """Misfit plus prior: chi² at the point. [-]"""
     misfits: Mapping[Signal, float]
     """Chi² by signal."""
-    samples: int
+    counts: Mapping[Signal, int]
+    """Samples by signal."""
     coordinates: tuple[Coordinate, ...]
     covariance: Array
     """Of constants (in sigma) and coordinates (in units), shape ``(k, k)``."""
+
+    @property
+    def samples(self) -> int:
+        """Those explained, of all signals."""
+        return sum(self.counts.values())
 
 
 def polished(problem: Problem, point: Point) -> Polished:
@@ -71,7 +77,7 @@ def polished(problem: Problem, point: Point) -> Polished:
         Where to start; its effects stay, their numbers move.
     """
     coordinates = _coordinates(problem, point)
-    low, high = _limits(problem, point, coordinates)
+    low, high = bounds(problem, point, coordinates)
     cost, white = _cost(problem, point, coordinates)
     covariance: Array = np.empty((0, 0))
     damping = 0.0
@@ -79,7 +85,7 @@ def polished(problem: Problem, point: Point) -> Polished:
         columns = slopes(problem, point, coordinates)
         matrix = columns.T @ columns + np.eye(columns.shape[1])
         covariance = np.asarray(np.linalg.inv(matrix), np.float64)
-        here = _vector(point, coordinates)
+        here = coefficients(point, coordinates)
         pull = columns.T @ np.concatenate(white) - _priors(here, coordinates)
         start = cost
         for _ in range(TRIALS):
@@ -95,13 +101,14 @@ def polished(problem: Problem, point: Point) -> Polished:
         if start - cost < max(CONVERGED, RELATIVE * cost):
             break
     misfits = dict.fromkeys(problem.signals, 0.0)
+    counts = dict.fromkeys(problem.signals, 0)
     for block, left in zip(problem.blocks, white, strict=True):
         misfits[block.signal] += float(left @ left)
-    samples = sum(w.size for w in white)
-    return Polished(point, cost, misfits, samples, coordinates, covariance)
+        counts[block.signal] += left.size
+    return Polished(point, cost, misfits, counts, coordinates, covariance)
 
 
-def _limits(
+def bounds(
     problem: Problem, point: Point, coordinates: Sequence[Coordinate]
 ) -> tuple[Array, Array]:
     """Least and largest of constants, in widths, and coordinates, in units."""
@@ -130,7 +137,7 @@ def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
     return tuple(found)
 
 
-def _vector(point: Point, coordinates: Sequence[Coordinate]) -> Array:
+def coefficients(point: Point, coordinates: Sequence[Coordinate]) -> Array:
     """Where a point stands: constants in widths, coordinates in units."""
     acting = {effect.name: effect for effect in point.effects}
     values = [getattr(acting[c.effect], c.parameter) / c.unit for c in coordinates]
@@ -169,7 +176,7 @@ def _cost(
         problem.white([residual], index)[:, 0]
         for index, residual in enumerate(problem.residuals(point))
     ]
-    pull = _priors(_vector(point, coordinates), coordinates)
+    pull = _priors(coefficients(point, coordinates), coordinates)
     return float(sum(w @ w for w in white) + pull @ pull), white
 
 
@@ -189,7 +196,7 @@ def slopes(
             point.widths.tolist(), sensitivities(problem, point), strict=True
         )
     ]
-    here = _vector(point, coordinates)
+    here = coefficients(point, coordinates)
     count = point.shifts.size
     for index, coordinate in enumerate(coordinates):
         step = 0.1 if coordinate.is_amplitude else 2 * SHAPE_STEP

@@ -3,6 +3,7 @@
 import numpy as np
 
 from gripperd.diagnose.candidates import Candidate, is_exact
+from gripperd.diagnose.crossing import bears_out
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.response import moves
@@ -51,25 +52,28 @@ def worth(
     gain = larger.evidence - best.evidence
     if not best.candidates or gain <= threshold:
         return gain > threshold
-    if problem.temperature == 1 and gain <= LEAST_MORE:
+    new = [one for one in larger.candidates if one.name not in best.names]
+    signals = {signal for one in new for signal in acts_on(problem, one)}
+    hot = problem.temperature(signals) > 1
+    if not hot and gain <= LEAST_MORE:
         return False
     if _change(problem, best.fit.point, larger.fit.point) < SEEN:
         return False
-    new = [one for one in larger.candidates if one.name not in best.names]
     further = best.fit.cost - larger.fit.cost
-    signals = {signal for one in new for signal in acts_on(problem, one)}
     # Constants tie the stages together: it may close elsewhere what it sets free here.
     gained = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
     signals |= {s for s, gain in gained.items() if gain > ELSEWHERE * further}
     closed = sum(null.fit.misfits[s] - larger.fit.misfits[s] for s in signals)
     noise = (2 * larger.fit.samples) ** 0.5
-    complete = problem.temperature == 1 and larger.excess < noise
+    complete = not hot and larger.excess < noise
     price = COMPLETE if complete else PHANTOM
     for group in (best.candidates[:1], new):
         price *= EXACT if group and all(is_exact(one) for one in group) else 1.0
     # Far above the noise it counts what an addition takes of what was left.
-    halves = problem.temperature > 1 and further > HALF * best.fit.cost
-    return halves or further > price * closed
+    halves = hot and further > HALF * sum(best.fit.misfits[s] for s in signals)
+    if not halves and further <= price * closed:
+        return False
+    return not hot or bears_out(problem, best.fit, larger.fit, signals)
 
 
 def _change(problem: Problem, one: Point, other: Point) -> float:

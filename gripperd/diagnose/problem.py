@@ -1,7 +1,7 @@
 """One recording against one model: what it says, and what is left."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -33,8 +33,8 @@ class Problem:
     noises: Mapping[Signal, Noise]
     slack: float = -np.inf
     """Force below which the muscle may be slack and tells nothing. [N]"""
-    temperature: float = 1.0
-    """How much louder the noise is taken than it was measured, in squares. [-]"""
+    temperatures: Mapping[Signal, float] = field(default_factory=dict)
+    """How much louder noises are taken than they were measured, in squares. [-]"""
     kept: tuple[Mask, ...] = ()
     """Samples of each course that take part; all when empty."""
 
@@ -66,6 +66,15 @@ class Problem:
     def signals(self) -> tuple[Signal, ...]:
         """Those explained anywhere."""
         return tuple(dict.fromkeys(block.signal for block in self.blocks))
+
+    def temperature(self, signals: Iterable[Signal]) -> float:
+        """Give the highest of some signals; 1 where the noise is reached. [-]."""
+        return max((self.temperatures.get(one, 1.0) for one in signals), default=1.0)
+
+    @property
+    def is_hot(self) -> bool:
+        """Whether misfit, not noise, is what explanations are weighed against."""
+        return self.temperature(self.signals) > 1
 
     def reach(self, point: Point) -> Array:
         """How far each constant may be off, in widths of its prior."""

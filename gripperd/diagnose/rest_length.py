@@ -1,4 +1,10 @@
-"""The rest length that a recorded contraction refers to, when it may be another."""
+"""The rest length that a recorded contraction refers to, when it may be another.
+
+References
+----------
+.. [1] R. E. Kass, A. E. Raftery, "Bayes factors", J. Am. Stat. Assoc. 90(430),
+       773-795, 1995, section 3.2.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -8,11 +14,13 @@ import numpy as np
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival
-from gripperd.diagnose.rivalry import Contest, contest
+from gripperd.diagnose.rivalry import Contest
 from gripperd.diagnose.search import search
 
 LOOSE = 0.0125
 """Stated tolerance of the rest length from which its zero is open. [-]"""
+STRONG = 3.0
+"""Gain from which evidence is strong [1]_; with less it is left open. [nat]"""
 
 
 def length_is_open(
@@ -56,9 +64,14 @@ def with_other_length(
         For the recordings without a discrepancy.
     """
     told = replace(train.model, told_length=train.model.muscle.rest_length)
-    other = contest(search(replace(train, model=told), listed, rng), listed)
-    leaders = other.best.candidates[:1]
-    if not leaders or leaders[0].name in {best.best.names[0], *best.equivalents[0]}:
-        return best
-    rival = Rival((*leaders, *best.best.candidates[1:]), other.best.fit)
-    return replace(best, rivals=((*best.rivals[0], rival), *best.rivals[1:]))
+    other = search(replace(train, model=told), listed, rng)
+    alone = [rival for rival in other.rivals if len(rival.candidates) == 1]
+    known = {best.best.names[0], *best.equivalents[0]}
+    further: dict[str, Rival] = {}
+    for rival in alone:
+        name = rival.names[0]
+        if alone[0].evidence - rival.evidence < STRONG and name not in known:
+            stead = (rival.candidates[0], *best.best.candidates[1:])
+            further.setdefault(name, Rival(stead, rival.fit))
+    rivals = (*best.rivals[0], *further.values())
+    return replace(best, rivals=(rivals, *best.rivals[1:]))

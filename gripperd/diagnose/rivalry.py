@@ -6,10 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.crossing import bears_out
 from gripperd.diagnose.design import Member, design
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
+from gripperd.diagnose.preference import preferred, strained
+from gripperd.diagnose.price import acts_on
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 
@@ -48,12 +51,11 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
     best = found.best
     challenged = _all_challenged(found.problem, best, listed)
     for _ in range(EXCHANGES):
-        champion = max(
-            (rival for _, rivals in challenged for rival in rivals),
-            key=lambda rival: rival.evidence,
-            default=best,
-        )
+        rivals = [rival for _, rivals in challenged for rival in rivals]
+        champion = preferred(found.problem, rivals) if rivals else best
         if champion.evidence <= best.evidence:
+            break
+        if found.problem.is_hot and not _sounder(found.problem, best, champion):
             break
         best = champion
         challenged = _all_challenged(found.problem, best, listed)
@@ -73,8 +75,9 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
                 rival
                 for rival in sorted(rivals, key=lambda one: -one.evidence)
                 if best.evidence - rival.evidence < margin
+                and _stands_in(found.problem, best, index, rival, margin)
             )
-            for _, rivals in challenged
+            for index, (_, rivals) in enumerate(challenged)
         ),
     )
 
@@ -90,6 +93,24 @@ def _all_challenged(
 
 def _margin(best: Rival, closed: float) -> float:
     return SURE + 0.5 * min(MISSHAPED * closed, max(best.excess, 0.0))
+
+
+def _sounder(problem: Problem, best: Rival, champion: Rival) -> bool:
+    """Whether an exchange is held by no limit, and foretells better what it acts on."""
+    if strained(problem, champion) or preferred(problem, [best, champion]) is best:
+        return False
+    changed = set(best.candidates) ^ set(champion.candidates)
+    signals = {signal for one in changed for signal in acts_on(problem, one)}
+    return bears_out(problem, best.fit, champion.fit, signals)
+
+
+def _stands_in(
+    problem: Problem, best: Rival, index: int, rival: Rival, margin: float
+) -> bool:
+    """Whether a rival explains the same signals, not others as much better."""
+    signals = acts_on(problem, best.candidates[index])
+    lost = sum(rival.fit.misfits[s] - best.fit.misfits[s] for s in signals)
+    return 0.5 * lost < SURE + margin
 
 
 def _challengers(

@@ -13,15 +13,17 @@ from itertools import combinations
 import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.course import is_table
 from gripperd.diagnose.design import Design, Member, design
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.null import null_gains
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
+from gripperd.diagnose.preference import preferred
 from gripperd.diagnose.price import worth
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
-from gripperd.diagnose.temperature import louder, plain, temperature_of
+from gripperd.diagnose.temperature import coolest, louder, plain, temperatures_of
 
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
@@ -56,9 +58,9 @@ def search(
     start = Point(np.zeros(len(problem.constants)))
     null = polished(problem, start)
     found = None
-    if temperature_of(null) < HOPELESS:
+    if max(temperatures_of(null).values()) < HOPELESS:
         found = _cooled(problem, listed, rng, null.point)
-    if found is None or found.problem.temperature > MISFIT:
+    if found is None or found.problem.temperature(problem.signals) > MISFIT:
         found = _cooled(plain(problem), listed, rng, null.point)
     return _grown(found, listed)
 
@@ -71,15 +73,15 @@ def _cooled(
 ) -> Found:
     """Take the noise as loud as the best explanation leaves it, and no louder."""
     null = polished(problem, start)
-    temperature = max(1.0, temperature_of(null))
-    found = _pass(louder(problem, temperature), listed, rng, null.point)
+    warm = {s: max(1.0, share) for s, share in temperatures_of(null).items()}
+    found = _pass(louder(problem, warm), listed, rng, null.point)
     for _ in range(COOLINGS):
-        coolest = min(temperature_of(rival.fit) for rival in found.rivals)
-        cooler = max(1.0, temperature * coolest)
-        if cooler > 0.8 * temperature:
+        shares = coolest(rival.fit for rival in found.rivals)
+        cooler = {s: max(1.0, warm[s] * share) for s, share in shares.items()}
+        if all(cooler[s] > 0.8 * warm[s] for s in warm):
             break
-        temperature = cooler
-        found = _pass(louder(problem, temperature), listed, rng, null.point)
+        warm = cooler
+        found = _pass(louder(problem, warm), listed, rng, null.point)
     return found
 
 
@@ -96,13 +98,14 @@ def _pass(
     gains = _by_name(singles)
     nulls = null_gains(around, around.members, rng)
     # Noise as loud as the misfit holds the doubt about the model already.
-    least = LEAST if problem.temperature == 1 else 0.0
+    least = 0.0 if problem.is_hot else LEAST
     threshold = max(float(np.quantile(nulls, 1 - FALSE_ALARMS)), least)
     rivals = [null]
     # What is hot is weighed even so: only a fit tells how loud the rest really is.
-    hot = problem.temperature > 1
-    if hot or max(gains.values(), default=0.0) > threshold:
-        sets = _finalists(around, singles, base)
+    if problem.is_hot or max(gains.values(), default=0.0) > threshold:
+        # A table has so few samples that every form can be fitted in full.
+        thrifty = not is_table(problem.courses)
+        sets = _finalists(around, singles, base, thrifty=thrifty)
         rivals += [_fitted(problem, null.fit.point, members) for members in sets]
     best = _best(problem, null, rivals, threshold)
     rivals.sort(key=lambda rival: -rival.evidence)
@@ -128,15 +131,16 @@ def _leaders(singles: dict[Member, float]) -> list[Member]:
 
 
 def _finalists(
-    around: Design, singles: dict[Member, float], base: float
+    around: Design, singles: dict[Member, float], base: float, *, thrifty: bool
 ) -> list[tuple[Member, ...]]:
-    """Best singles and best pairs by the linear fit."""
+    """Best singles, or all of them, and best pairs by the linear fit."""
     leaders = _leaders(singles)
     # A threshold makes the linear rank of some unfair to them: known doubles of the
     # leader are heard as well.
     doubles = leaders[0].candidate.doubles
     late = [one for one in leaders[FINALISTS:] if one.candidate.name in doubles]
-    sets: list[tuple[Member, ...]] = [(one,) for one in leaders[:FINALISTS] + late]
+    alone = leaders[:FINALISTS] + late if thrifty else list(around.members)
+    sets: list[tuple[Member, ...]] = [(one,) for one in alone]
     pairs = [
         (around.fit(one, other).evidence, (one, other))
         for one, other in combinations(leaders, 2)
@@ -161,7 +165,7 @@ def _best(
         of_size = [rival for rival in rivals if len(rival.candidates) == size]
         if not of_size:
             continue
-        champion = max(of_size, key=lambda rival: rival.evidence)
+        champion = preferred(problem, of_size)
         if worth(problem, null, best, champion, threshold):
             best = champion
     return best
@@ -184,10 +188,10 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
             if singles[member] > found.threshold
         ]
         tried += grown
-        champion = max(grown, key=lambda rival: rival.evidence, default=None)
-        if champion is None or not worth(
-            problem, found.null, best, champion, found.threshold
-        ):
+        if not grown:
+            break
+        champion = preferred(problem, grown)
+        if not worth(problem, found.null, best, champion, found.threshold):
             break
         best = champion
     rivals = sorted((*found.rivals, *tried), key=lambda rival: -rival.evidence)

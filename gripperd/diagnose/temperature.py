@@ -1,32 +1,47 @@
-"""How much louder than its noise a recording is taken, so that misfit is no news."""
+"""How much louder than its noise a signal is taken, so that misfit is no news."""
 
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.problem import Problem
+from gripperd.model.effect import Signal
 
 HOT = 1.3
 """Mean square of whitened residuals above which the library does not reach the noise:
 what is left is then taken for noise, or every constant would be torn. [-]"""
 
 
-def temperature_of(fit: Polished) -> float:
-    """Mean square of what is left, whitened; 1 when it is the noise alone."""
-    share = sum(fit.misfits.values()) / fit.samples
-    return share if share > HOT or share < 1 else 1.0
+def temperatures_of(fit: Polished) -> dict[Signal, float]:
+    """Mean square of what is left, whitened; 1 where it is the noise alone."""
+    shares = {signal: fit.misfits[signal] / n for signal, n in fit.counts.items()}
+    return {
+        s: share if share > HOT or share < 1 else 1.0 for s, share in shares.items()
+    }
 
 
-def louder(problem: Problem, temperature: float) -> Problem:
+def coolest(fits: Iterable[Polished]) -> dict[Signal, float]:
+    """Mean square that the best explanation of each signal leaves."""
+    found: dict[Signal, float] = {}
+    for fit in fits:
+        for signal, here in temperatures_of(fit).items():
+            found[signal] = min(found.get(signal, here), here)
+    return found
+
+
+def louder(problem: Problem, temperatures: Mapping[Signal, float]) -> Problem:
     """Give the problem with noise as loud as what no explanation reaches."""
-    factor = temperature**0.5
-    noises = {
-        signal: Noise(
+    noises = dict(problem.noises)
+    for signal, temperature in temperatures.items():
+        noise, factor = noises[signal], temperature**0.5
+        noises[signal] = Noise(
             noise.std * factor, noise.correlation, noise.drift * factor, noise.memory
         )
-        for signal, noise in problem.noises.items()
-    }
-    return replace(problem, noises=noises, temperature=temperature)
+    return replace(
+        problem, noises=noises, temperatures=MappingProxyType(dict(temperatures))
+    )
 
 
 def plain(problem: Problem) -> Problem:

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from gripperd.diagnose.noise import Noise, quick_noise
+from gripperd.diagnose.noise import Noise, coarse_step, quick_noise
 from tests.diagnose.sweep import noise
 
 SIZE = 20_000
@@ -49,6 +49,22 @@ def test_without_noise_the_resolution_of_the_converter_remains() -> None:
     # A uniform law of width 0.4 has a standard deviation of 0.4 / root 12.
     assert quick_noise(steady).std == pytest.approx(0.4 / 12**0.5)
     assert quick_noise(steady).correlation == 0.0
+
+
+def test_steps_are_no_noise_though_a_coarse_converter_repeats_most_readings() -> None:
+    held = 0.8 * np.round(noise(SIZE, 0.35) / 0.8)
+    jumps = np.where(np.arange(SIZE) % 100 < 4, noise(SIZE, 60.0, 1), 0.0)
+    assert np.mean(np.diff(held) == 0) > 0.5
+    step = coarse_step([held + jumps])
+    assert step == pytest.approx(0.8)
+    found = quick_noise([held + jumps], step)
+    assert found.std == pytest.approx(float(held.std()), rel=0.2)
+
+
+def test_a_fine_converter_has_no_step_to_speak_of() -> None:
+    assert coarse_step([noise(SIZE, 2.5)]) == 0.0
+    assert coarse_step([np.full(50, 2.0)]) == 0.0
+    assert coarse_step([]) == 0.0
 
 
 def test_nothing_measured_has_no_noise() -> None:

@@ -38,7 +38,8 @@ def _rival(problem: Problem, *candidates: Candidate, misfit: float) -> Rival:
         point = added(point, one)
     misfits = {Signal.PRESSURE: 300.0, Signal.FORCE: misfit}
     size = len(problem.constants)
-    fit = Polished(point, 300.0 + misfit, misfits, 600, (), np.eye(size))
+    counts = dict.fromkeys(misfits, 300)
+    fit = Polished(point, 300.0 + misfit, misfits, counts, (), np.eye(size))
     return Rival(candidates, fit)
 
 

@@ -1,0 +1,59 @@
+"""A constant that stays at the edge of its tolerance and would leave it."""
+
+from collections.abc import Sequence
+
+from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.found import Found
+from gripperd.diagnose.polish import polished
+from gripperd.diagnose.preference import BORE
+from gripperd.diagnose.price import LEAST_MORE
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rival import Rival, added
+from gripperd.diagnose.rivalry import Contest
+
+EDGE = 0.999
+"""Share of its reach from which a constant stays at the edge. [-]"""
+KIN = 0.5
+"""Share of the gain from which another constant could be the wrong one. [-]"""
+
+
+def with_overstepped(
+    found: Found, best: Contest, listed: Sequence[Candidate]
+) -> Contest:
+    """Let go of the constant of the muscle that the tolerances hold back most.
+
+    Far above the noise constants take what the effects leave, up to the edge of their
+    tolerance: one of them is wrong. One is told and no more, for they stand in for each
+    other; none when a wrong one is known already.
+
+    Parameters
+    ----------
+    found, best
+        The search and its outcome.
+    listed
+        What could be missing.
+    """
+    problem, here = found.problem, best.best
+    if not (problem.is_hot and here.candidates) or here.fit.point.freed:
+        return best
+    freed = [
+        Rival((*here.candidates, one), polished(problem, added(here.fit.point, one)))
+        for one in listed
+        if one.constant is not None and _at_edge(problem, here, one.constant)
+    ]
+    most = max((one.evidence - here.evidence for one in freed), default=0.0)
+    if most <= LEAST_MORE:
+        return best
+    kin = [one for one in freed if one.evidence - here.evidence > KIN * most]
+    told = next((one for one in kin if BORE in one.names), kin[0])
+    return Contest(
+        told,
+        (*best.without, here),
+        (*best.rivals, tuple(rival for rival in kin if rival is not told)),
+    )
+
+
+def _at_edge(problem: Problem, rival: Rival, index: int) -> bool:
+    constant = problem.constants[index]
+    shift = float(rival.fit.point.shifts[index])
+    return constant.path.startswith("muscle.") and abs(shift) > EDGE * constant.reach

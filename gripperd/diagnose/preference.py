@@ -1,0 +1,67 @@
+"""Which of several explanations to believe when misfit, not noise, sets them apart."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from gripperd.diagnose.candidates import WRONG, amplitudes, is_exact
+from gripperd.diagnose.design import limits
+from gripperd.diagnose.holdout import FEW
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rival import Rival
+from gripperd.model.effect import Effect
+
+ALIKE = 1.25
+"""Misfit over the least of any rival up to which, far above the noise, a difference
+says only that neither formula is that of nature. [-]"""
+BORE = WRONG + "muscle.diameter"
+HELD = 0.999
+"""Share of a limit from which a number is held back by it. [-]"""
+
+
+def preferred(problem: Problem, rivals: Sequence[Rival]) -> Rival:
+    """Give the likeliest; far above the noise the soundest of those that fit alike.
+
+    Sound is what no limit of physics holds back. Of constants and
+    factors that stand in for each other the bore is told: a catalogue has that of the
+    bladder, not of the braid.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    rivals
+        At least one.
+    """
+    best = max(rivals, key=lambda rival: rival.evidence)
+    if not problem.is_hot or len({one.course for one in problem.blocks}) < FEW:
+        return best
+    alike = [one for one in rivals if one.fit.cost <= ALIKE * best.fit.cost]
+    sound = [one for one in alike if not strained(problem, one)] or [best]
+    top = max(sound, key=lambda rival: rival.evidence)
+    return next((one for one in sound if _has_bore_instead(one, top)), top)
+
+
+def _has_bore_instead(rival: Rival, other: Rival) -> bool:
+    """Whether but the bore stands where the other has a constant, or a mere factor."""
+    instead = [one for one in other.candidates if one.name not in rival.names]
+    return BORE in rival.names and [
+        one.effect is None or is_exact(one) for one in instead
+    ] == [True]
+
+
+def strained(problem: Problem, rival: Rival) -> bool:
+    """Whether an effect would be larger, did its limit let it."""
+    return any(
+        _at_limit(problem, effect, name)
+        for effect in rival.fit.point.effects
+        for name in amplitudes(effect)
+    )
+
+
+def _at_limit(problem: Problem, effect: Effect, name: str) -> bool:
+    value = float(getattr(effect, name))
+    return any(
+        np.isfinite(bound) and bound * value > 0 and abs(value) >= HELD * abs(bound)
+        for bound in limits(problem, effect, name)
+    )

@@ -1,0 +1,58 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.found import Found
+from gripperd.diagnose.overstepped import with_overstepped
+from gripperd.diagnose.rivalry import Contest, contest
+from gripperd.diagnose.search import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from tests.diagnose.small import MODEL, Hidden, Moment, pinned, recording, threshold
+
+OPEN = ("muscle.diameter", "muscle.braid_angle")
+TOLERANCES = {"muscle.diameter": 1e-4, "muscle.braid_angle": 1.7e-3}
+BORE = "parameter:muscle.diameter"
+LISTED = (
+    Candidate("threshold_pressure", ThresholdPressure(pressure=20e3)),
+    Candidate(BORE, None, 0),
+    Candidate("parameter:muscle.braid_angle", None, 1),
+)
+
+
+def _late_and_restless(moment: Moment) -> np.ndarray:
+    """A threshold, and waves that nothing in the list explains."""
+    return threshold(60.0)(moment) + 25.0 * np.sin(moment.time)
+
+
+def _told(diameter: float, hidden: Hidden) -> tuple[Found, Contest]:
+    built = replace(MODEL, muscle=replace(MODEL.muscle, diameter=diameter))
+    problem = pinned(problem_of(recording(hidden), built, TOLERANCES), *OPEN)
+    found = search(problem, LISTED[:1], np.random.default_rng(0))
+    return found, contest(found, LISTED[:1])
+
+
+def test_a_bore_that_its_tolerance_holds_back_is_told() -> None:
+    found, best = _told(0.0208, _late_and_restless)
+    assert found.problem.is_hot
+    assert best.best.names == ("threshold_pressure",)
+    told = with_overstepped(found, best, LISTED)
+    assert told.best.names == ("threshold_pressure", BORE)
+    # Built 20 mm, said to be 20.8 mm known to 0.1 mm.
+    shift = float(told.best.fit.point.shifts[0])
+    assert shift == pytest.approx(-8.0, abs=2.0)
+    assert len(told.without) == len(told.rivals) == 2
+
+
+def test_a_bore_within_its_tolerance_is_not_told() -> None:
+    found, best = _told(0.0201, _late_and_restless)
+    assert found.problem.is_hot
+    assert with_overstepped(found, best, LISTED) is best
+
+
+def test_near_the_noise_nothing_is_let_go() -> None:
+    found, best = _told(0.0208, threshold(60.0))
+    cool = replace(found, problem=replace(found.problem, temperatures={}))
+    assert with_overstepped(cool, best, LISTED) is best
