@@ -3,7 +3,7 @@
 Whitened residuals of a right explanation are independent with unit variance in any
 order. They are looked at in the order of time, pressure and contraction, plain and
 times the direction of travel, and in cells of pressure and contraction: slow components
-have a chi-square sum when nothing is left.
+have a chi-square sum when nothing is left. Fast waves are looked for as well.
 
 References
 ----------
@@ -18,6 +18,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.ripple import ripple
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -33,7 +34,7 @@ class Structure:
 
     signal: Signal
     along: str
-    """``time``, ``pressure``, ``contraction``, and those times the direction."""
+    """``time``, ``pressure``, ``contraction``, those times the direction, or a wave."""
     excess: float
     """Sum of squares above what noise has. [-]"""
     p_value: float
@@ -54,6 +55,7 @@ def structures(problem: Problem, residuals: Sequence[Array]) -> tuple[Structure,
         for signal in problem.signals
         for along, components in _views(problem, white, signal)
     ]
+    found += [_ripple(problem, white, signal) for signal in problem.signals]
     return tuple(sorted(found, key=lambda one: one.p_value))
 
 
@@ -70,6 +72,23 @@ def _structure(
         chi_square_tail(total, count),
         _size(problem, signal, total - count),
         float(squares.max()) / total if total > 0 else 0.0,
+    )
+
+
+def _ripple(problem: Problem, white: Sequence[Array], signal: Signal) -> Structure:
+    indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
+    wave = ripple(
+        [white[i] for i in indices],
+        [problem.times[i] for i in indices],
+        problem.noises[signal],
+    )
+    return Structure(
+        signal,
+        f"time, at {wave.frequency:.1f} Hz",
+        wave.excess,
+        wave.p_value,
+        wave.amplitude / problem.full_scale[signal],
+        1.0,
     )
 
 

@@ -12,7 +12,8 @@ from typing import ClassVar
 import numpy as np
 
 from gripperd.model.kinds import InValve
-from gripperd.model.parameter import amplitude
+from gripperd.model.memory import leaked
+from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
 SOON = 10.0
@@ -23,10 +24,11 @@ SOON = 10.0
 class Leak(InValve):
     r"""The pressure sinks while the command stands still.
 
-    .. math:: p = p_0 \left(e^{-k t} - d\,(1 - e^{-t/10\,\mathrm s})\right)
+    .. math:: p = p_0 - l - d\,p_0\,(1 - e^{-t/10\,\mathrm s})
 
-    with t the time since the command last moved: the regulator fills up when it is
-    told to move. The first term is a shut valve, the second a regulator that feeds the
+    with l what a shut valve has lost, ``dl/dt = k (p_0 - l)`` while the command stands
+    still and ``dl/dt = -l / r`` while it moves, and t the time since it last moved:
+    told to move, the regulator fills up. The last term is a regulator that feeds the
     leak and droops.
     """
 
@@ -43,8 +45,15 @@ class Leak(InValve):
     """Pressure lost per pressure and time, valve shut. [1/s]"""
     early: float = amplitude(unit=None, scale=0.02, low=0.0, high=0.9)
     """Share of the pressure lost to the droop. [-]"""
+    refill: float = shape(unit="s", starts=(0.05, 2.0), low=0.005, high=30.0)
+    """Time in which a regulator told to move fills up what was lost. [s]"""
+
+    def rest(self) -> Array:
+        """Nothing lost."""
+        return np.zeros(1)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pressure that is left. [Pa]."""
-        left = np.exp(-self.rate * track.still)
-        return value * (left + self.early * np.expm1(-track.still / SOON))
+        still = track.still
+        lost = leaked(value, track.step, still, (self.rate, self.refill), memory)
+        return value - lost + value * self.early * np.expm1(-still / SOON)

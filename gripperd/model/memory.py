@@ -70,6 +70,29 @@ def stop(signal: Array, radius: float, state: Array) -> Array:
     return signal - play(signal, radius, state)
 
 
+def leaked(
+    signal: Array,
+    step: Array,
+    still: Array,
+    law: tuple[float, float],
+    state: Array,
+) -> Array:
+    """Part of a signal that is lost while it stands still and filled up as it moves.
+
+    Parameters
+    ----------
+    signal
+        What leaks, shape ``(n,)``.
+    step, still
+        Time since the sample before, and since the signal last moved. [s]
+    law
+        Share lost per time [1/s], and time constant of filling up. [s]
+    state
+        What is lost so far, shape ``(1,)``; it is moved on.
+    """
+    return compiled(_leaked)(signal, step, still, law[0], law[1], state)
+
+
 def _lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> Array:
     out = np.empty_like(signal)
     last = state[0]
@@ -109,4 +132,20 @@ def _dahl(signal: Array, direction: Array, distance: float, state: Array) -> Arr
         last = signal[index]
         out[index] = sign
     state[0], state[1] = last, sign
+    return out
+
+
+def _leaked(
+    signal: Array, step: Array, still: Array, rate: float, refill: float, state: Array
+) -> Array:
+    out = np.empty_like(signal)
+    lost = state[0]
+    for index in range(signal.size):
+        if still[index] > 0:
+            lost += (signal[index] - lost) * -np.expm1(-rate * step[index])
+        else:
+            lost *= np.exp(-step[index] / refill)
+        lost = max(min(lost, signal[index]), 0.0)
+        out[index] = lost
+    state[0] = lost
     return out

@@ -7,16 +7,42 @@ import pytest
 
 from gripperd.effects.leak import Leak
 from gripperd.model import Muscle
+from gripperd.model.track import Array
 from tests.effects.tracks import track_of
 
 
+def _left(effect: Leak, muscle: Muscle, pressure: list[float], **moved: Array) -> Array:
+    track = track_of(muscle, **moved)
+    return effect.along(np.array(pressure), track, effect.rest())
+
+
 def test_a_shut_line_decays_with_its_rate(muscle: Muscle) -> None:
-    effect = Leak(rate=1 / 66)
     still = np.array([0.0, 66.0, 132.0])
-    found = effect.along(
-        np.full(3, 300e3), track_of(muscle, still=still), effect.rest()
-    )
+    step = np.array([0.0, 66.0, 66.0])
+    found = _left(Leak(rate=1 / 66), muscle, 3 * [300e3], still=still, step=step)
     assert found == pytest.approx([300e3, 300e3 / exp(1), 300e3 / exp(2)])
+
+
+@pytest.mark.parametrize(
+    ("refill", "kept"), [(0.02, 0.0), (0.1, exp(-1)), (10.0, 0.99)]
+)
+def test_what_was_lost_is_filled_up_as_fast_as_the_regulator_fills(
+    muscle: Muscle, refill: float, kept: float
+) -> None:
+    # Half a minute at 400 kPa, then told 200 kPa within a tenth of a second.
+    still, step = np.array([0.0, 30.0, 0.0]), np.array([0.0, 30.0, 0.1])
+    effect = Leak(rate=1e-3, refill=refill)
+    found = _left(effect, muscle, [400e3, 400e3, 200e3], still=still, step=step)
+    lost = 400e3 * (1 - exp(-0.03))
+    assert found[1] == pytest.approx(400e3 - lost)
+    assert found[2] == pytest.approx(200e3 - kept * lost, abs=100.0)
+
+
+def test_no_more_is_lost_than_there_is(muscle: Muscle) -> None:
+    still, step = np.array([0.0, 100.0, 0.0]), np.array([0.0, 100.0, 0.1])
+    effect = Leak(rate=0.1, refill=30.0)
+    found = _left(effect, muscle, [400e3, 400e3, 0.0], still=still, step=step)
+    assert found[2] == 0.0
 
 
 def test_a_regulator_that_feeds_the_leak_droops_by_the_share(muscle: Muscle) -> None:
