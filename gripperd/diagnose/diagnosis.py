@@ -49,8 +49,6 @@ from gripperd.model.effect import Effect, Signal, Stage
 
 MOST_ROWS = 40_000
 """More are averaged, whole numbers of neighbours: they cost and tell nothing."""
-WORSE = 1.01
-"""Gap over that of better constants alone from which a name is withdrawn. [-]"""
 
 Progress: TypeAlias = Callable[[str, float], None]
 """Told what is being done, and the share that is done. [0..1]"""
@@ -193,7 +191,7 @@ def _told(
     judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     entries = named(found, best, judged)
     main = _main(best, judged)
-    if main is not None and judged[main].after > WORSE * judged[main].recalibrated:
+    if main is not None and not judged[main].confirms:
         conclusion = not_confirmed(conclusion)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.

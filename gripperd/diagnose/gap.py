@@ -20,6 +20,12 @@ from gripperd.model.track import Array
 STRETCH = 40
 """Samples that are drawn together, longer than the noise remembers."""
 DRAWS = 400
+WORSE = 1.01
+"""Gap over that of better constants alone from which effects do harm. [-]"""
+REACHED = 1.3
+"""Gap over the noise floor up to which nothing more can be asked. [-]"""
+LEAST_CLOSED = 0.45
+"""Share of a gap well above the noise that effects close at least. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +49,13 @@ class Gap:
         floor = self.noise_floor**2
         left = self.recalibrated**2 - floor
         return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
+
+    @property
+    def confirms(self) -> bool:
+        """Whether what took no part bears the effects out."""
+        if self.after > WORSE * self.recalibrated:
+            return False
+        return self.after <= REACHED * self.noise_floor or self.closed >= LEAST_CLOSED
 
 
 def gaps(

@@ -65,6 +65,8 @@ def ripple(white: Sequence[Array], times: Sequence[Array], noise: Noise) -> Ripp
         if over.max() > best:
             best = float(over.max())
             place = float(cycles[np.argmax(over)] / np.median(np.diff(time)))
+    if not ordinates:
+        return Ripple(0.0, 0.0, 1.0, 0.0)
     samples = sum(left.size for left in white)
     return Ripple(
         place,

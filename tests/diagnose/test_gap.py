@@ -45,6 +45,22 @@ def test_the_share_closed_is_of_the_mean_square_above_the_noise(
     assert gap.closed == pytest.approx(share)
 
 
+@pytest.mark.parametrize(
+    ("gap", "confirms"),
+    [
+        pytest.param(_gap(9.0, 3.0), True, id="down to the noise"),
+        pytest.param(_gap(3.2, 3.2), True, id="there was nothing to close"),
+        pytest.param(_gap(3.2, 3.3), False, id="worse than constants alone"),
+        pytest.param(_gap(9.0, 6.0), True, id="five eighths of the mean square"),
+        pytest.param(_gap(9.0, 8.0), False, id="a quarter of the mean square"),
+    ],
+)
+def test_effects_are_confirmed_by_what_they_close_of_a_gap(
+    gap: Gap, *, confirms: bool
+) -> None:
+    assert gap.confirms is confirms
+
+
 def test_the_gap_is_the_root_mean_square_of_what_was_left_out(
     judged: tuple[Problem, dict[Signal, Gap]],
 ) -> None:
