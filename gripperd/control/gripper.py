@@ -203,6 +203,7 @@ class Gripper:
             model=self.chain.name,
             held=self._dispatch.keep.held,
             regulation=self._dispatch.keep.state(measured),
+            faults=self.faults.active,
             zero=self._dispatch.zero,
         )
 

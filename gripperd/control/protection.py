@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 from gripperd.control.command import Failure
 from gripperd.control.dispatch import Dispatch
-from gripperd.control.faults import Fault, Faults
+from gripperd.control.fault import Fault
+from gripperd.control.faults import Faults
 from gripperd.control.hold import Hold
 from gripperd.control.lifecycle import Lifecycle
 from gripperd.control.monitors.output import overruled
@@ -21,12 +22,9 @@ from gripperd.control.output import Output
 from gripperd.control.profile import Profile
 from gripperd.control.reaction import OPENING, Ease, Response, response
 from gripperd.control.snapshot import Instant
-from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.states import BOUND, Event, Grip, Machine
 from gripperd.model import Chain
 from gripperd.signals import Measurement
-
-BOUND = frozenset({Machine.FAULT_REACTION, Machine.FAULT, Machine.ESTOPPED})
-"""States in which nothing that is latched has anything left to stop."""
 
 STILL = frozenset({Reaction.HOLD, Reaction.FREEZE})
 """Reactions that move nothing."""

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from gripperd.control.fault import Fault
 from gripperd.control.held import Held
 from gripperd.control.regulation import RegulationState
 from gripperd.control.states import Event, Grip, Machine
@@ -45,5 +46,7 @@ class GripperState:
     """What is held and under which limits, where that is known."""
     regulation: RegulationState | None = None
     """How its force is kept."""
+    faults: tuple[Fault, ...] = ()
+    """Those that still matter, oldest first."""
     zero: float = 0.0
     """What the force sensor shows without a load. [N]"""

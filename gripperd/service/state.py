@@ -11,6 +11,7 @@ from gripperd.control.states import Event, Grip, Machine
 from gripperd.control.trust import Level
 from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
+from gripperd.service.fault_documents import FaultDocument, fault_document
 from gripperd.service.rendering import Document, known, optional, to
 from gripperd.signals import Measurement, Quality, Reading
 from gripperd.units import MILLI
@@ -91,6 +92,9 @@ class StateDocument(Document):
     adopted: bool = Field(description="The current was found, not commanded.")
     measured: MeasuredValues
     interlocks: InterlocksDocument
+    faults: tuple[FaultDocument, ...] = Field(
+        description="Those that still matter, oldest first."
+    )
     prediction: PresentPrediction | None = Field(
         description="Null unless current, opening and model are known."
     )
@@ -125,6 +129,7 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
             force_N=_measured("grip", "N", state),
         ),
         interlocks=_interlocked(state.measured if fresh else None),
+        faults=tuple(map(fault_document, state.faults)),
         prediction=_predicted(state, settings.chain) if fresh else None,
         regulation=_regulated(state.regulation),
         hold_budget=_lasting(state, settings),
