@@ -59,6 +59,7 @@ def main() -> NoReturn:
         demonstrating,
         diagnosing,
         examining,
+        faults,
         model,
         monitoring,
         operate,
