@@ -202,6 +202,7 @@ class Gripper:
             link=self.link,
             model=self.chain.name,
             held=self._dispatch.keep.held,
+            strongest=self.hold.strongest,
             regulation=self._dispatch.keep.state(measured),
             faults=self.faults.active,
             zero=self._dispatch.zero,

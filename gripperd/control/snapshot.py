@@ -44,6 +44,8 @@ class GripperState:
     """Name of the model that it goes by."""
     held: Held | None = None
     """What is held and under which limits, where that is known."""
+    strongest: float | None = None
+    """Highest grip force since something has been held. [N]"""
     regulation: RegulationState | None = None
     """How its force is kept."""
     faults: tuple[Fault, ...] = ()

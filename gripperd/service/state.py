@@ -3,7 +3,6 @@
 from pydantic import Field
 
 from gripperd.config import FailMode, GripperSettings
-from gripperd.control.budget import Cause, budget
 from gripperd.control.interlocks import closed
 from gripperd.control.regulation import RegulationState
 from gripperd.control.snapshot import GripperState
@@ -12,6 +11,7 @@ from gripperd.control.trust import Level
 from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
 from gripperd.service.fault_documents import FaultDocument, fault_document
+from gripperd.service.hold_budget import BudgetDocument, hold_budget
 from gripperd.service.rendering import Document, known, optional, to
 from gripperd.signals import Measurement, Quality, Reading
 from gripperd.units import MILLI
@@ -69,15 +69,6 @@ class InterlocksDocument(Document):
     estop: bool | None = Field(description="False: pressed, or its wire is cut.")
 
 
-class BudgetDocument(Document):
-    """Seconds until the grip force is under the slip limit; null: it stays above."""
-
-    air_s: float | None = Field(description="After the loss of air.")
-    power_s: float | None = Field(description="After the loss of power.")
-    bus_s: float | None = Field(description="After the loss of the bus.")
-    limited_by: Cause | None
-
-
 class StateDocument(Document):
     """Everything about a gripper at one moment."""
 
@@ -102,7 +93,7 @@ class StateDocument(Document):
         description="Null unless an object is held under a profile."
     )
     hold_budget: BudgetDocument | None = Field(
-        description="Null unless it is known what is held, and how hard."
+        description="Null unless something is held, and it is known how hard."
     )
     zero_N: float = Field(description="Taken off what the force sensor shows.")
     fail_mode: FailMode = Field(description="What happens without power or air.")
@@ -132,7 +123,7 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
         faults=tuple(map(fault_document, state.faults)),
         prediction=_predicted(state, settings.chain) if fresh else None,
         regulation=_regulated(state.regulation),
-        hold_budget=_lasting(state, settings),
+        hold_budget=hold_budget(state, settings),
         zero_N=to("N", state.zero),
         fail_mode=settings.fail_mode,
         model=state.model,
@@ -161,29 +152,6 @@ def _regulated(found: RegulationState | None) -> RegulationDocument | None:
         wanted_N=known("N", found.wanted),
         correction_kPa=to("kPa", found.correction),
         most_kPa=to("kPa", found.most),
-    )
-
-
-def _lasting(state: GripperState, settings: GripperSettings) -> BudgetDocument | None:
-    """The budget by the last measurement, less the time since."""
-    if state.held is None or state.measured is None or state.age is None:
-        return None
-    if state.model != settings.chain.name:
-        return None
-    found = budget(
-        state.held,
-        state.measured,
-        settings.chain,
-        fail_mode=settings.fail_mode,
-        worst_leak=settings.worst_leak,
-    )
-    if found is None:
-        return None
-    return BudgetDocument(
-        air_s=known("s", max(found.air - state.age, 0.0)),
-        power_s=known("s", max(found.power - state.age, 0.0)),
-        bus_s=known("s", max(found.bus - state.age, 0.0)),
-        limited_by=found.limited_by,
     )
 
 
