@@ -30,6 +30,7 @@ from gripperd.control.snapshot import GripperState, Instant
 from gripperd.control.states import Event, Grip, Machine
 from gripperd.control.tare import tared
 from gripperd.control.task import Task
+from gripperd.control.zero import Zero
 from gripperd.errors import Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
@@ -89,6 +90,15 @@ class Gripper:
     def machine(self) -> Machine:
         """What it is allowed to do."""
         return self._life.state
+
+    @property
+    def zero(self) -> Zero:
+        """Of the force sensor."""
+        return self._dispatch.zero
+
+    @zero.setter
+    def zero(self, zero: Zero) -> None:
+        self._dispatch.zero = zero
 
     @property
     def attached(self) -> bool:
@@ -205,7 +215,7 @@ class Gripper:
             strongest=self.hold.strongest,
             regulation=self._dispatch.keep.state(measured),
             faults=self.faults.active,
-            zero=self._dispatch.zero,
+            zero=self.zero,
         )
 
     def use(self, chain: Chain) -> None:
@@ -230,9 +240,7 @@ class Gripper:
         -------
         The current to write, None where it stays. [A]
         """
-        measured = self._measured = self._senses.judge(
-            tared(raw, self._dispatch.zero), dt
-        )
+        measured = self._measured = self._senses.judge(tared(raw, self.zero.force), dt)
         self.link = "up"
         self.hold.update(measured, dt)
         self.permission.update(measured)
@@ -249,20 +257,8 @@ class Gripper:
         idle = self._dispatch.running is None
         self.hold.look(adopted=self._output.adopted and idle)
         if idle and self._dispatch.running is None:
-            self._keep(measured, dt)
+            self._dispatch.look_after(measured, self.chain, dt)
         return self._output.change()
-
-    def _keep(self, measured: Measurement, dt: float) -> None:
-        """Look after what is held between commands."""
-        keep, output = self._dispatch.keep, self._output
-        if self.hold.grip is not Grip.HOLDING:
-            keep.begin(None)
-        elif output.adopted:
-            keep.leave()
-        elif self.machine is Machine.READY:
-            output.current = keep.step(measured, self.chain, output.current, dt)
-        else:
-            keep.pause()
 
     def _check_task(self, task: Task) -> None:
         """Refuse a task at once, unless something else will have happened by then."""

@@ -6,6 +6,7 @@ from gripperd.control.fault import Fault
 from gripperd.control.held import Held
 from gripperd.control.regulation import RegulationState
 from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.zero import UNTARED, Zero
 from gripperd.signals import Measurement
 
 
@@ -50,5 +51,5 @@ class GripperState:
     """How its force is kept."""
     faults: tuple[Fault, ...] = ()
     """Those that still matter, oldest first."""
-    zero: float = 0.0
-    """What the force sensor shows without a load. [N]"""
+    zero: Zero = UNTARED
+    """What the force sensor shows without a load."""

@@ -1,5 +1,7 @@
 """The state of a gripper as a document; never an old value as if it were new."""
 
+from datetime import datetime
+
 from pydantic import Field
 
 from gripperd.config import FailMode, GripperSettings
@@ -12,7 +14,7 @@ from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
 from gripperd.service.fault_documents import FaultDocument, fault_document
 from gripperd.service.hold_budget import BudgetDocument, hold_budget
-from gripperd.service.rendering import Document, known, optional, to
+from gripperd.service.rendering import Document, known, optional, timestamp, to
 from gripperd.signals import Measurement, Quality, Reading
 from gripperd.units import MILLI
 
@@ -96,6 +98,7 @@ class StateDocument(Document):
         description="Null unless something is held, and it is known how hard."
     )
     zero_N: float = Field(description="Taken off what the force sensor shows.")
+    tared_at: datetime | None = Field(description="When; null: never tared.")
     fail_mode: FailMode = Field(description="What happens without power or air.")
     model: str = Field(description="Name of the version that it goes by.")
 
@@ -124,7 +127,8 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
         prediction=_predicted(state, settings.chain) if fresh else None,
         regulation=_regulated(state.regulation),
         hold_budget=hold_budget(state, settings),
-        zero_N=to("N", state.zero),
+        zero_N=to("N", state.zero.force),
+        tared_at=timestamp(taken) if (taken := state.zero.taken_at) else None,
         fail_mode=settings.fail_mode,
         model=state.model,
     )
