@@ -21,7 +21,7 @@ from gripperd.control.lifecycle import Lifecycle
 from gripperd.control.output import Output
 from gripperd.control.snapshot import Instant
 from gripperd.control.states import Event, Grip, Machine
-from gripperd.control.task import Tared
+from gripperd.control.task import Tared, Task
 from gripperd.control.zero import UNTARED, Zero
 from gripperd.errors import GripperdError, Refused
 from gripperd.model import Chain
@@ -72,6 +72,12 @@ class Dispatch:
             objection=self._hold.objection(vented=vented),
             zero=self.zero.force,
         )
+
+    def check(self, task: Task, chain: Chain, measured: Measurement | None) -> None:
+        """Refuse a task at once, unless something else will have happened by then."""
+        waits = self.running is not None or any(self._ledger.waiting())
+        if not waits and measured is not None:
+            admit(task, self.scene(chain, measured))
 
     def start_next(self, chain: Chain, measured: Measurement, now: Instant) -> None:
         """Begin what waits, unless it could let go of something."""

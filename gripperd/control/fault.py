@@ -46,6 +46,8 @@ class Fault:
     @property
     def unseen(self) -> bool:
         """Whether somebody has to acknowledge it."""
+        if self.cause is Cause.ESTOPPED:
+            return False
         return self.latched and self.acknowledged_at is None
 
     @property

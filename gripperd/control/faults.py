@@ -109,10 +109,12 @@ class Faults:
         """
         if (objection := self._objection()) is not None:
             raise objection
-        for fault in self.latched:
-            self._faults[fault.id] = replace(fault, reset_at=now.wall)
-            del self._away[fault.id]
-        self._tell("reset", now)
+        self._let_go(self.latched, now)
+
+    def reset_estop(self, now: Instant) -> None:
+        """Let go of an emergency stop that is closed again; the rest stays."""
+        estops = (each for each in self.latched if each.cause is Cause.ESTOPPED)
+        self._let_go(tuple(estops), now)
 
     def check(self) -> None:
         """Refuse to go on while something is latched.
@@ -138,6 +140,12 @@ class Faults:
             for fault in self.latched
             if fault.unseen
         )
+
+    def _let_go(self, faults: Iterable[Fault], now: Instant) -> None:
+        for fault in faults:
+            self._faults[fault.id] = replace(fault, reset_at=now.wall)
+            del self._away[fault.id]
+        self._tell("reset", now)
 
     def _follow(self, fault: Fault, now: Instant) -> None:
         """Note whether the cause is gone, or back."""
