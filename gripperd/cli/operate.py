@@ -10,7 +10,9 @@ from gripperd.cli.faults import lines
 from gripperd.cli.rest import DEFAULT_URL, Name, Url, ask, where
 from gripperd.errors import InputError
 
-STATE = frozenset({"name", "machine", "grip", "link", "measured", "faults"})
+STATE = frozenset(
+    {"name", "machine", "grip", "link", "measured", "faults", "hold_budget"}
+)
 COMMAND = frozenset({"status", "result", "error"})
 """Keys by which the answers of a daemon are told from those of something else."""
 
@@ -34,6 +36,8 @@ def status(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) 
         if reading["quality"] != "good":
             note = f"  {reading['quality']}: {reading.get('cause', '')}"
         typer.echo(f"  {key:<14}{value:>10}{note}")
+    if state["hold_budget"] is not None:
+        typer.echo(f"  hold budget   {_lasting(state['hold_budget'])}")
 
 
 @app.command()
@@ -91,6 +95,17 @@ def reset(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) -
 def stop(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) -> None:
     """Freeze at once; what is held stays held."""
     _switch("stop", url, gripper, as_json=as_json)
+
+
+def _lasting(budget: dict[str, Any]) -> str:
+    """How long the grip lasts after each loss."""
+    losses = []
+    for loss in ("air", "power", "bus"):
+        seconds = budget[f"{loss}_s"]
+        lasts = "stays" if seconds is None else f"{seconds:.1f} s"
+        losses.append(f"without {loss} {lasts}")
+    assumed = "  assumed: what is held is not known" if budget["assumed"] else ""
+    return ", ".join(losses) + assumed
 
 
 def _switch(what: str, url: str, gripper: str | None, *, as_json: bool) -> None:
