@@ -59,11 +59,12 @@ def kept_zero(folder: Path, gripper: GripperSettings, now: float) -> KeptZero:
         Seconds since the epoch.
     """
     path = _file(folder, gripper)
-    if not path.exists():
-        return KeptZero()
     try:
+        path.stat()
         found = validated(ZeroSection, read_document(path))
-    except ConfigError as error:
+    except FileNotFoundError:
+        return KeptZero()
+    except (ConfigError, OSError) as error:
         return KeptZero(remark=f"the force sensor is not tared: {error}")
     if found.sensor != (sensor := sensor_of(gripper)):
         return KeptZero(

@@ -95,3 +95,14 @@ def test_one_that_was_damaged_does_not_count_and_is_told(
     assert found.zero == UNTARED
     assert (found.remark or "").startswith("the force sensor is not tared: ")
     assert said in (found.remark or "")
+
+
+def test_a_file_where_the_folder_should_be_is_told(
+    tmp_path: Path, gripper: GripperSettings
+) -> None:
+    (tmp_path / "zeros").write_text("")
+    found = kept_zero(tmp_path, gripper, NOON)
+    assert found.zero == UNTARED
+    assert "zeros/g0.yaml" in (found.remark or "")
+    with pytest.raises(OSError, match="zeros"):
+        keep_zero(tmp_path, gripper, Zero(1.0, NOON))
