@@ -13,7 +13,8 @@ run: $(VENV)/installed
 test: $(VENV)/developing
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
-# All of them, unless ONLY names some: physics, plant, bus, faults, outage, latency.
+# All of them, unless ONLY names some: physics, plant, bus, faults, outage, latency,
+# stopping, punctuality, footprint.
 bench: $(VENV)/developing
 	$(BIN)/python -m tests.benchmarks $(ONLY)
 

@@ -86,7 +86,7 @@ def found(lines: IO[str], pattern: str) -> tuple[str, ...]:
     raise RuntimeError(message)
 
 
-def until(condition: Callable[[], bool], patience: float = 20.0) -> None:
+def until(condition: Callable[[], object], patience: float = 20.0) -> None:
     """Wait for something that is bound to happen."""
     end = time.monotonic() + patience
     while not condition():

@@ -1,6 +1,7 @@
 """The command tree, and what an error means for the exit status."""
 
 import sys
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -12,6 +13,27 @@ from gripperd.errors import ConfigError, GripperdError, InputError
 
 FAILED, WRONG_USE, UNUSABLE_CONFIGURATION = 1, 2, 78
 """Exit statuses; 78 is EX_CONFIG of sysexits.h."""
+
+MODULES = (
+    "daemon",
+    "demonstrating",
+    "diagnosing",
+    "examining",
+    "faults",
+    "model",
+    "monitoring",
+    "operate",
+    "physics",
+    "simulating",
+)
+"""Each registers its commands when it is imported."""
+PROCESSES = {
+    "run": "daemon",
+    "control": "daemon",
+    "service": "daemon",
+    "bench": "simulating",
+}
+"""Modules of the commands that run for months, and load nothing else."""
 
 app = typer.Typer(
     name="gripperd",
@@ -53,19 +75,9 @@ def version(
 
 def main() -> NoReturn:
     """Run the command line."""
-    # Imported here, so that each command registers itself.
-    from gripperd.cli import (  # noqa: F401
-        daemon,
-        demonstrating,
-        diagnosing,
-        examining,
-        model,
-        monitoring,
-        operate,
-        physics,
-        simulating,
-    )
-
+    asked = sys.argv[1] if len(sys.argv) > 1 else ""
+    for name in (PROCESSES[asked],) if asked in PROCESSES else MODULES:
+        import_module(f"gripperd.cli.{name}")
     try:
         app()
     except ConfigError as error:

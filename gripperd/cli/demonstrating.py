@@ -14,7 +14,7 @@ from gripperd.cli.waiting import progress
 from gripperd.demo.rig import Hidden
 
 if TYPE_CHECKING:
-    from gripperd.demo import Story
+    from gripperd.demo.story import Story
 
 
 @app.command("demo-discrepancy")
@@ -28,7 +28,7 @@ def demo_discrepancy(
     """Hide an effect in a rig, find it, add it, and show that the gap shrinks."""
     with progress() as tell:
         tell("running the rig", 0.0)
-        from gripperd.demo import demonstrate
+        from gripperd.demo.story import demonstrate
 
         story = demonstrate(
             out, effect, seed, program=__version__, now=datetime.now(UTC), progress=tell

@@ -21,6 +21,7 @@ import uvloop
 
 from gripperd.cli.notify import notify
 from gripperd.cli.supervisor import SUPERVISED, stop_requested
+from gripperd.cli.tares import adopt_zero, keep_zeros
 from gripperd.cli.watchdog import Watchdog, longest_silence
 from gripperd.config import BenchBus, GripperSettings, Settings
 from gripperd.control.gripper import Gripper
@@ -139,6 +140,7 @@ async def control(
                 period=1 / gripper.rate,
                 advanced=partial(watchdog.advanced, name),
             )
+            adopt_zero(settings.state_dir, gripper, loops[name].gripper)
         desk = ControlDesk(
             loops,
             BusDesk(wired),
@@ -151,8 +153,10 @@ async def control(
         )
         _warn(settings)
         async with asyncio.TaskGroup() as tasks:
-            for loop in loops.values():
+            for name, loop in loops.items():
                 tasks.create_task(loop.run())
+                kept = keep_zeros(settings.state_dir, settings.grippers[name], loop)
+                tasks.create_task(kept)
             await _attached(loops)
             log.info("control runs", grippers=list(loops), real_time=real_time)
             notify(READY=1)

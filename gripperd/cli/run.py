@@ -58,27 +58,28 @@ async def _start_and_watch(
     settings: Settings, children: list[Child], console: Console
 ) -> None:
     folder, common = settings.runtime_dir, ["--config", str(settings.source)]
-    bench_address: list[str] = []
 
-    async def start(name: str, *arguments: str, silence: float | None = None) -> Child:
-        child = Child(name, [name, *common, *arguments], folder, silence)
-        children.append(child)
-        await child.start()
-        return child
+    def child(name: str, silence: float | None = None) -> Child:
+        children.append(Child(name, [name, *common], folder, silence))
+        return children[-1]
 
-    if simulated(settings) is not None:
-        bench = await start("bench")
-        bench_address = ["--bench", bench.facts["ADDRESS"]]
-        # What is started again must be found where it was, also on a chosen port.
-        bench.arguments += ["--tcp", bench.facts["ADDRESS"]]
-        console.print(
-            f"bench    Modbus TCP on {bench.facts['ADDRESS']}, simulated: no hardware"
-        )
-    control = await start("control", *bench_address, silence=CONTROL_SILENCE)
-    # The unit's own watchdog is fed by what matters.
-    control.alive = feed
-    console.print(f"control  {', '.join(settings.grippers)}")
-    service = await start("service", silence=SERVICE_SILENCE)
+    bench = child("bench") if simulated(settings) is not None else None
+    control = child("control", CONTROL_SILENCE)
+    service = child("service", SERVICE_SILENCE)
+    async with asyncio.TaskGroup() as starts:
+        # It loads most, and needs the others only to answer.
+        starts.create_task(service.start())
+        if bench is not None:
+            await bench.start()
+            address = bench.facts["ADDRESS"]
+            # What is started again must be found where it was, also on a chosen port.
+            bench.arguments += ["--tcp", address]
+            control.arguments += ["--bench", address]
+            console.print(f"bench    Modbus TCP on {address}, simulated: no hardware")
+        await control.start()
+        # The unit's own watchdog is fed by what matters.
+        control.alive = feed
+        console.print(f"control  {', '.join(settings.grippers)}")
     url = service.facts["ADDRESS"]
     service.arguments += ["--http", url.removeprefix("http://")]
     console.print(f"service  {url}   try {url}/v1/grippers, {url}/docs")

@@ -23,14 +23,16 @@ from gripperd.service.server import serve as serve_http
 
 SERVICE_NICENESS = 5
 """Below the control loop, where that has no real-time priority."""
-ASKED_WITHIN = 1.0
-"""[s]"""
+ASKED_WITHIN = 2.0
+"""Control may be starting at the same time. [s]"""
 
 EXPENDABLE = 300
 """Out of memory, the service and its workers are ended before control (proc(5))."""
 LOOK = b"GET /v1/health/live HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
-ASKED_AGAIN = 1.0
+LOOKED_AGAIN = 1.0
 """Pause between two looks at itself. [s]"""
+ASKED_AGAIN = 0.05
+"""[s]"""
 
 log = structlog.get_logger()
 
@@ -78,10 +80,20 @@ def _let_control_live() -> None:
 
 async def _give_way(control: Client) -> None:
     """Leave the processor to control, unless it takes it by itself."""
-    with suppress(LinkError):
-        if (await control.ask(ReadOverview(), Overview, ASKED_WITHIN)).real_time:
-            return
+    with suppress(TimeoutError):
+        async with asyncio.timeout(ASKED_WITHIN):
+            if await _in_real_time(control):
+                return
     nice(SERVICE_NICENESS)
+
+
+async def _in_real_time(control: Client) -> bool:
+    """Whether control has real-time priority, once it answers."""
+    while True:
+        with suppress(LinkError):
+            overview = await control.ask(ReadOverview(), Overview, ASKED_WITHIN)
+            return overview.real_time
+        await asyncio.sleep(ASKED_AGAIN)
 
 
 async def _look_at_itself(url: str) -> None:
@@ -92,7 +104,7 @@ async def _look_at_itself(url: str) -> None:
         with suppress(OSError):
             await _answer(place.hostname, place.port)
             watchdog.advanced("service")
-        await asyncio.sleep(ASKED_AGAIN)
+        await asyncio.sleep(LOOKED_AGAIN)
 
 
 async def _answer(host: str, port: int) -> None:

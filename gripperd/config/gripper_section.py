@@ -117,7 +117,7 @@ class GripperSection(Section):
             chain=self.model.chain(),
             fail_mode=self.fail_mode,
             worst_leak=self.worst_leak_per_s,
-            policies=self.monitors.policies,
+            policies={**self.monitors.policies, **self.interlocks.policies},
             auto_enable=self.auto_enable,
             rate=self.rate_Hz,
         )

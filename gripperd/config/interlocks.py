@@ -8,10 +8,20 @@ the module has discrete inputs only.
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Annotated
+
+from pydantic import Field, field_validator
 
 from gripperd.bench.contacts import Contact
 from gripperd.config.section import Section
 from gripperd.config.wiring import Channel, InputSection
+from gripperd.control.monitors.policy import (
+    OPENING,
+    POLICIES,
+    Cause,
+    Policy,
+    Reaction,
+)
 from gripperd.drivers.analog import InputWiring, SensorWiring
 from gripperd.protocol.live_zero import LoopScale
 
@@ -20,9 +30,19 @@ CONTACT = LoopScale(value_low=0.0, value_high=1.0)
 
 
 class ContactSection(Section):
-    """One contact."""
+    """One contact, and what the jaws do when it opens."""
 
     channel: Channel
+    reaction: Annotated[Reaction, Field(strict=False)] = Reaction.FREEZE
+
+    @field_validator("reaction")
+    @classmethod
+    def _needs_no_part(cls, reaction: Reaction) -> Reaction:
+        if reaction is Reaction.REDUCE:
+            possible = ", ".join(each for each in Reaction if each is not reaction)
+            message = f"an open contact says nothing of a force: {possible}"
+            raise ValueError(message)
+        return reaction
 
 
 class InterlocksSection(Section):
@@ -36,6 +56,18 @@ class InterlocksSection(Section):
         """Channels of the contacts that are fitted."""
         fitted = {Contact.ENABLE: self.enable, Contact.ESTOP: self.estop}
         return {name: each.channel for name, each in fitted.items() if each}
+
+    @property
+    def policies(self) -> Mapping[Cause, Policy]:
+        """What follows when each of them opens."""
+        enable, estop = POLICIES[Cause.NOT_ENABLED], POLICIES[Cause.ESTOPPED]
+        if self.enable is not None:
+            # Who lets go by itself has to be looked after before it goes on.
+            latched = self.enable.reaction in OPENING
+            enable = replace(enable, reaction=self.enable.reaction, latched=latched)
+        if self.estop is not None:
+            estop = replace(estop, reaction=self.estop.reaction)
+        return {Cause.NOT_ENABLED: enable, Cause.ESTOPPED: estop}
 
     def with_contacts(self, wiring: InputWiring | None) -> InputWiring | None:
         """The same inputs, and the contacts beside the sensors."""

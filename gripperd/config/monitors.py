@@ -110,7 +110,7 @@ class MonitorsSection(Section):
     def policies(self) -> Mapping[Cause, Policy]:
         """What applies, cause by cause."""
         return {
-            cause: section.policy(POLICIES[cause])
+            cause: getattr(self, cause).policy(POLICIES[cause])
             for cause in Cause
-            if isinstance(section := getattr(self, cause), MonitorSection)
+            if cause in type(self).model_fields
         }

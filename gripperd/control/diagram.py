@@ -39,6 +39,24 @@ not follow, from the beginning of a motion for a blocked jaw. Limit, duration, r
 and latch can be set for each gripper under `monitors`.
 
 {monitors}
+
+## Interlocks: what an open contact does
+
+`not_enabled` and `estopped` are the contacts of `interlocks`, which also sets their
+`reaction`. A motion ends in any case, and none begins while a contact is open.
+
+| reaction | what is held or moving |
+|---|---|
+| `freeze` (as shipped), `hold` | comes to rest where it is; the current stays |
+| `controlled_release` | the current ramps down to the live zero: the object drops |
+| `vent` | the current goes to the live zero at once: the object drops |
+
+An open `enable` that lets go is latched: `fault`, until it is closed, acknowledged and
+reset. Otherwise closing it is enough. An open `estop` leads to `estopped`, whatever
+went on before, and is left by closing it and a reset that is refused while the jaws
+still open; nobody has to acknowledge it. A cut wire and a dead input are open contacts.
+One that is open at the start, or when a lost link comes back, moves nothing: what was
+adopted stays until the contact has been closed once.
 """
 
 

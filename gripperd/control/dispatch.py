@@ -21,7 +21,8 @@ from gripperd.control.lifecycle import Lifecycle
 from gripperd.control.output import Output
 from gripperd.control.snapshot import Instant
 from gripperd.control.states import Event, Grip, Machine
-from gripperd.control.task import Tared
+from gripperd.control.task import Tared, Task
+from gripperd.control.zero import UNTARED, Zero
 from gripperd.errors import GripperdError, Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
@@ -51,8 +52,8 @@ class Dispatch:
         self._dwell = 0.0
         self.keep = Keep()
         """What is held, and what is done about it between commands."""
-        self.zero = 0.0
-        """Of the force sensor. [N]"""
+        self.zero = UNTARED
+        """Of the force sensor."""
 
     @property
     def running(self) -> str | None:
@@ -69,8 +70,14 @@ class Dispatch:
             grip=self._hold.grip,
             held=self.keep.held,
             objection=self._hold.objection(vented=vented),
-            zero=self.zero,
+            zero=self.zero.force,
         )
+
+    def check(self, task: Task, chain: Chain, measured: Measurement | None) -> None:
+        """Refuse a task at once, unless something else will have happened by then."""
+        waits = self.running is not None or any(self._ledger.waiting())
+        if not waits and measured is not None:
+            admit(task, self.scene(chain, measured))
 
     def start_next(self, chain: Chain, measured: Measurement, now: Instant) -> None:
         """Begin what waits, unless it could let go of something."""
@@ -103,6 +110,18 @@ class Dispatch:
         self._yield_to_others(measured, now)
         self._execute(measured, dt, now)
         self._expire(now)
+
+    def look_after(self, measured: Measurement, chain: Chain, dt: float) -> None:
+        """See to what is held between commands."""
+        keep, output = self.keep, self._output
+        if self._hold.grip is not Grip.HOLDING:
+            keep.begin(None)
+        elif output.adopted:
+            keep.leave()
+        elif self._life.state is Machine.READY:
+            output.current = keep.step(measured, chain, output.current, dt)
+        else:
+            keep.pause()
 
     def cancel(self, command: Command, now: Instant) -> None:
         """End one command; freeze if it is the one that runs.
@@ -185,7 +204,7 @@ class Dispatch:
         self._hold.settle(grip, name)
         self.keep.begin(held)
         if isinstance(ending.finding, Tared):
-            self.zero = ending.finding.zero
+            self.zero = Zero(ending.finding.zero, now.wall)
         self._ledger.close(
             replace(command, finding=ending.finding),
             now.wall,

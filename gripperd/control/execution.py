@@ -18,6 +18,7 @@ from gripperd.control.meaning import doubt, failure
 from gripperd.control.motion import Motion, begin
 from gripperd.control.release import Release
 from gripperd.control.states import Grip
+from gripperd.model import Direction
 from gripperd.signals import Measurement
 from gripperd.units import MILLI
 
@@ -46,6 +47,7 @@ class Execution:
         self.command = replace(
             command, status=Status.RUNNING, started_at=wall, order=order
         )
+        self._before = scene.held
         self.motion: Grasp | Release | Motion
         if command.task is not None:
             self.motion, self.grip = begin(command.task, scene)
@@ -70,7 +72,12 @@ class Execution:
     @property
     def held(self) -> Held | None:
         """What is held if it is cut short now, where that is known."""
-        return self.motion.held if isinstance(self.motion, Adjustment) else None
+        if isinstance(self.motion, Adjustment):
+            return self.motion.held
+        if isinstance(self.motion, Grasp):
+            return self.motion.held(Outcome.UNKNOWN)
+        # What was held before, with the current as it is by now.
+        return self._before and self._before.at(None, Direction.EXTENDING)
 
     def _note(self, grasp: Grasp) -> None:
         """Keep a line for each phase, for whoever reads the command later."""

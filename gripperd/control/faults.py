@@ -1,12 +1,13 @@
 """What went wrong with one gripper: what is still so, and what was before."""
 
-from collections import OrderedDict
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections import Counter, OrderedDict
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from itertools import islice
 
+from gripperd.control.fault import Fault
 from gripperd.control.journal import Happening, Journal
-from gripperd.control.monitors.policy import Cause, Policy, Reaction
+from gripperd.control.monitors.policy import Cause, Policy
 from gripperd.control.monitors.sight import Symptom
 from gripperd.control.snapshot import Instant
 from gripperd.errors import NotFound, Refused
@@ -15,34 +16,6 @@ HISTORY = 500
 """Faults that are remembered."""
 CLEARED_AFTER = 1.0
 """A symptom has to be away for so long until its cause counts as gone. [s]"""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Fault:
-    """A snapshot of one fault. Times are seconds since the epoch."""
-
-    id: str
-    gripper: str
-    cause: Cause
-    subject: str
-    """Which one, where there are several, such as a channel."""
-    message: str
-    reaction: Reaction
-    latched: bool
-    """Whether it stops the gripper until it is acknowledged and reset."""
-    raised_at: float
-    cleared_at: float | None = None
-    """When the cause was gone."""
-    acknowledged_at: float | None = None
-    acknowledged_by: str | None = None
-    reset_at: float | None = None
-
-    @property
-    def active(self) -> bool:
-        """Whether it still matters: its cause is there, or it is latched."""
-        if self.latched:
-            return self.reset_at is None
-        return self.cleared_at is None
 
 
 class Faults:
@@ -67,11 +40,18 @@ class Faults:
         self._faults: OrderedDict[str, Fault] = OrderedDict()
         self._away: dict[str, float] = {}
         """Active faults, and for how long their symptom has been away. [s]"""
+        self.raised: Counter[Cause] = Counter()
+        """How many there have been of each cause."""
+
+    @property
+    def active(self) -> tuple[Fault, ...]:
+        """Faults that still matter, oldest first."""
+        return tuple(self._faults[fault_id] for fault_id in self._away)
 
     @property
     def latched(self) -> tuple[Fault, ...]:
         """Faults that stop the gripper."""
-        return tuple(fault for fault in self._active() if fault.latched)
+        return tuple(fault for fault in self.active if fault.latched)
 
     def newest(self, count: int) -> list[Fault]:
         """The last faults, newest first; those that are active are among them."""
@@ -95,7 +75,7 @@ class Faults:
             The present.
         """
         present = {(s.cause, s.subject): (s, policy) for s, policy in symptoms}
-        for fault in tuple(self._active()):
+        for fault in self.active:
             known = present.pop((fault.cause, fault.subject), None)
             self._away[fault.id] = 0.0 if known else self._away[fault.id] + dt
             self._follow(fault, now)
@@ -129,10 +109,12 @@ class Faults:
         """
         if (objection := self._objection()) is not None:
             raise objection
-        for fault in self.latched:
-            self._faults[fault.id] = replace(fault, reset_at=now.wall)
-            del self._away[fault.id]
-        self._tell("reset", now)
+        self._let_go(self.latched, now)
+
+    def reset_estop(self, now: Instant) -> None:
+        """Let go of an emergency stop that is closed again; the rest stays."""
+        estops = (each for each in self.latched if each.cause is Cause.ESTOPPED)
+        self._let_go(tuple(estops), now)
 
     def check(self) -> None:
         """Refuse to go on while something is latched.
@@ -156,11 +138,14 @@ class Faults:
         return tuple(
             f"POST .../faults/{fault.id}/acknowledge"
             for fault in self.latched
-            if fault.acknowledged_at is None
+            if fault.unseen
         )
 
-    def _active(self) -> Iterator[Fault]:
-        return (self._faults[fault_id] for fault_id in self._away)
+    def _let_go(self, faults: Iterable[Fault], now: Instant) -> None:
+        for fault in faults:
+            self._faults[fault.id] = replace(fault, reset_at=now.wall)
+            del self._away[fault.id]
+        self._tell("reset", now)
 
     def _follow(self, fault: Fault, now: Instant) -> None:
         """Note whether the cause is gone, or back."""
@@ -186,6 +171,7 @@ class Faults:
         )
         self._faults[fault.id] = fault
         self._away[fault.id] = 0.0
+        self.raised[fault.cause] += 1
         self._tell(f"{fault.cause}: {fault.message}", now)
         over = (name for name in tuple(self._faults) if name not in self._away)
         for name in islice(over, max(len(self._faults) - HISTORY, 0)):
@@ -197,7 +183,7 @@ class Faults:
 
     def _objection(self) -> Refused | None:
         if self._unseen:
-            unseen = [each for each in self.latched if each.acknowledged_at is None]
+            unseen = [each for each in self.latched if each.unseen]
             message = f"not acknowledged yet: {_listed(unseen)}"
             return Refused(message, code="not-acknowledged", hints=self._unseen)
         present = [each for each in self.latched if each.cleared_at is None]

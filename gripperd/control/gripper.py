@@ -6,7 +6,6 @@ current to write, or None where nothing has to change.
 
 from collections.abc import Callable
 
-from gripperd.control.admission import admit
 from gripperd.control.command import (
     CANCELLED,
     STOPPED,
@@ -29,7 +28,7 @@ from gripperd.control.senses import Senses
 from gripperd.control.snapshot import GripperState, Instant
 from gripperd.control.states import Event, Grip, Machine
 from gripperd.control.tare import tared
-from gripperd.control.task import Task
+from gripperd.control.zero import Zero
 from gripperd.errors import Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
@@ -71,7 +70,9 @@ class Gripper:
         self._life = Lifecycle()
         self._output = Output()
         self._dispatch = Dispatch(self._life, self.ledger, self._output, self.hold)
-        self.permission = Permission(self._life, self._dispatch, self.ledger.journal)
+        self.permission = Permission(
+            self._life, self._dispatch, self.ledger.journal, monitoring.policies
+        )
         self.faults = Faults(name, identify, self.ledger.journal)
         self._protection = Protection(
             self.faults,
@@ -89,6 +90,15 @@ class Gripper:
     def machine(self) -> Machine:
         """What it is allowed to do."""
         return self._life.state
+
+    @property
+    def zero(self) -> Zero:
+        """Of the force sensor."""
+        return self._dispatch.zero
+
+    @zero.setter
+    def zero(self, zero: Zero) -> None:
+        self._dispatch.zero = zero
 
     @property
     def attached(self) -> bool:
@@ -127,7 +137,7 @@ class Gripper:
             self._protection.check(order.profile)
             check(order, self.chain)
         elif order is not None:
-            self._check_task(order)
+            self._dispatch.check(order, self.chain, self._measured)
         return self.ledger.accept(order, deadline, key, now), False
 
     def stop(self, now: Instant) -> float | None:
@@ -179,6 +189,8 @@ class Gripper:
         """
         if self.machine is Machine.ESTOPPED:
             self.permission.check_reset()
+            self._protection.check_rest()
+            self.faults.reset_estop(now)
         else:
             self._life.check(Event.RESET)
             self.faults.reset(now)
@@ -202,8 +214,10 @@ class Gripper:
             link=self.link,
             model=self.chain.name,
             held=self._dispatch.keep.held,
+            strongest=self.hold.strongest,
             regulation=self._dispatch.keep.state(measured),
-            zero=self._dispatch.zero,
+            faults=self.faults.active,
+            zero=self.zero,
         )
 
     def use(self, chain: Chain) -> None:
@@ -217,6 +231,7 @@ class Gripper:
         if self.machine is Machine.OFFLINE:
             return
         self._life.on(Event.LINK_LOST)
+        self._protection.forget()
         lost = Failure(category="fault", code="link-lost", message=why)
         self._dispatch.end_all(lost, now)
         self.hold.settle(Grip.UNKNOWN, None)
@@ -228,9 +243,7 @@ class Gripper:
         -------
         The current to write, None where it stays. [A]
         """
-        measured = self._measured = self._senses.judge(
-            tared(raw, self._dispatch.zero), dt
-        )
+        measured = self._measured = self._senses.judge(tared(raw, self.zero.force), dt)
         self.link = "up"
         self.hold.update(measured, dt)
         self.permission.update(measured)
@@ -238,7 +251,8 @@ class Gripper:
             self._attach(measured)
             return None
         self.permission.enforce(now)
-        sample = Sample(measured, self._senses.scatter, self.chain)
+        contacts = self.permission.symptoms
+        sample = Sample(measured, self._senses.scatter, self.chain, contacts)
         self._protection.watch(sample, dt, now)
         if self.machine is Machine.READY:
             self._dispatch.start_next(self.chain, measured, now)
@@ -247,26 +261,8 @@ class Gripper:
         idle = self._dispatch.running is None
         self.hold.look(adopted=self._output.adopted and idle)
         if idle and self._dispatch.running is None:
-            self._keep(measured, dt)
+            self._dispatch.look_after(measured, self.chain, dt)
         return self._output.change()
-
-    def _keep(self, measured: Measurement, dt: float) -> None:
-        """Look after what is held between commands."""
-        keep, output = self._dispatch.keep, self._output
-        if self.hold.grip is not Grip.HOLDING:
-            keep.begin(None)
-        elif output.adopted:
-            keep.leave()
-        elif self.machine is Machine.READY:
-            output.current = keep.step(measured, self.chain, output.current, dt)
-        else:
-            keep.pause()
-
-    def _check_task(self, task: Task) -> None:
-        """Refuse a task at once, unless something else will have happened by then."""
-        waits = self._dispatch.running is not None or any(self.ledger.waiting())
-        if not waits and self._measured is not None:
-            admit(task, self._dispatch.scene(self.chain, self._measured))
 
     def _check_free(self) -> None:
         objection = self.objection
@@ -291,6 +287,7 @@ class Gripper:
         self._output.adopt(measured.current.value)
         self.hold.adopt()
         self._dispatch.keep.begin(None)
+        self.permission.begin()
         self._life.on(Event.ADOPT)
         if self._enabled and not self.faults.latched:
             self.enable()

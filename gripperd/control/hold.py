@@ -4,6 +4,9 @@ from gripperd.control.states import SIGNS, Grip, gripped
 from gripperd.control.watch import GripWatch
 from gripperd.signals import Measurement
 
+MAY_HOLD = frozenset({Grip.HOLDING, Grip.UNKNOWN})
+"""What is held is not lost from sight for good, such as by a lost link."""
+
 
 class Hold:
     """The grip state of one gripper, and whose object it is."""
@@ -12,11 +15,16 @@ class Hold:
         self.grip = Grip.UNKNOWN
         self.profile: str | None = None
         """Profile of what is held, if a grasp of this life took it."""
+        self.strongest: float | None = None
+        """Highest grip force since something has been held. [N]"""
         self._watch = GripWatch()
 
     def update(self, measured: Measurement, dt: float) -> None:
         """Take in the newest measurement."""
         self._watch.update(measured, dt)
+        force = measured.grip.value
+        if self.grip is Grip.HOLDING and force is not None:
+            self.strongest = max(force, self.strongest or 0.0)
 
     def adopt(self) -> None:
         """Go by what is seen: nobody here brought it about."""
@@ -26,6 +34,8 @@ class Hold:
         """Go by how a command began or ended."""
         self.grip = gripped(self.grip, SIGNS[grip])
         self.profile = profile if self.grip is Grip.HOLDING else None
+        if self.grip not in MAY_HOLD:
+            self.strongest = None
         self._watch.hold()
 
     @property

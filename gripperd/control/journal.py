@@ -8,16 +8,13 @@ from itertools import islice
 
 from gripperd.control.command import Command
 from gripperd.control.snapshot import GripperState
-from gripperd.control.states import Grip, Machine
+from gripperd.control.states import APART, Grip, Machine
 from gripperd.units import MILLI
 
 LENGTH = 4000
 """Entries that are kept: a command takes about six, so an hour of work at full pace."""
 PAGE = 50
 """Entries that go at once, so that they fit into one message between the processes."""
-
-APART = frozenset({Machine.OFFLINE, Machine.ATTACHING})
-"""States in which it is not known what the module does."""
 
 
 class Happening(StrEnum):

@@ -1,6 +1,6 @@
 """Where a gripper stands in the machine table."""
 
-from gripperd.control.states import Event, Machine, after, possible
+from gripperd.control.states import APART, Event, Machine, after, possible
 
 
 class Lifecycle:
@@ -31,4 +31,4 @@ class Lifecycle:
     @property
     def attached(self) -> bool:
         """Whether the present state of the hardware is known."""
-        return self.state not in {Machine.OFFLINE, Machine.ATTACHING}
+        return self.state not in APART

@@ -1,11 +1,16 @@
 """What has to be there for a motion: closed interlocks, and a lease that lasts."""
 
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
 from gripperd.control.command import Failure
 from gripperd.control.dispatch import Dispatch
 from gripperd.control.interlocks import Interlocks
 from gripperd.control.journal import Happening, Journal
 from gripperd.control.lease import Tenancy
 from gripperd.control.lifecycle import Lifecycle
+from gripperd.control.monitors.policy import Cause, Policy, Reaction
+from gripperd.control.monitors.sight import Symptom
 from gripperd.control.snapshot import Instant
 from gripperd.control.states import Event, Machine
 from gripperd.errors import Refused
@@ -33,28 +38,57 @@ HINTS = {
 }
 """What a person can do about an interlock."""
 
+MESSAGES = {
+    Cause.ESTOPPED: ESTOPPED.message,
+    Cause.NOT_ENABLED: NOT_ENABLED.message,
+}
+FOUND_OPEN = "found open"
+"""Tells a contact that was open at the start from one that opened later."""
+
 
 class Permission:
     """Lets motions begin, and freezes them when what allowed them is gone.
 
-    It never moves anything and never lets go: whatever happens, the current stays.
+    It never moves anything itself; what the settings want done about an open contact is
+    a reaction like that to any other fault.
 
     Parameters
     ----------
     life, dispatch, journal
         Of the gripper.
+    policies
+        What a contact that opens makes the jaws do.
     """
 
-    def __init__(self, life: Lifecycle, dispatch: Dispatch, journal: Journal) -> None:
+    def __init__(
+        self,
+        life: Lifecycle,
+        dispatch: Dispatch,
+        journal: Journal,
+        policies: Mapping[Cause, Policy],
+    ) -> None:
         self.tenancy = Tenancy()
         self._interlocks = Interlocks()
         self._life = life
         self._dispatch = dispatch
         self._journal = journal
+        self._policies = policies
+        self._found: frozenset[Cause] = frozenset()
+        """Contacts that were open already when the hardware was attached."""
+
+    def begin(self) -> None:
+        """From now on a contact that opens may move the jaws; none that is open."""
+        self._found = frozenset(self._open)
+
+    @property
+    def symptoms(self) -> tuple[tuple[Symptom, Policy], ...]:
+        """Contacts that are open, and what is to be done about each."""
+        return tuple(map(self._symptom, self._open))
 
     def update(self, measured: Measurement) -> None:
         """Take in the newest measurement."""
         self._interlocks.update(measured)
+        self._found &= frozenset(self._open)
 
     def check(self) -> None:
         """Refuse a motion that may not begin.
@@ -92,9 +126,25 @@ class Permission:
             self._dispatch.rest()
             self._life.on(Event.ESTOP)
             self._dispatch.end_all(ESTOPPED, now)
-            self._journal.note(Happening.FAULT, ESTOPPED.message, now.wall)
         elif not self._interlocks.enabled:
             self._end(NOT_ENABLED, now)
+
+    @property
+    def _open(self) -> Iterator[Cause]:
+        if not self._interlocks.enabled:
+            yield Cause.NOT_ENABLED
+        if self._interlocks.estopped:
+            yield Cause.ESTOPPED
+
+    def _symptom(self, cause: Cause) -> tuple[Symptom, Policy]:
+        policy, message = self._policies[cause], MESSAGES[cause]
+        if cause not in self._found:
+            return Symptom(cause, message), policy
+        # Nobody opened it under these eyes, so nothing that is adopted moves for it.
+        still = replace(policy, reaction=Reaction.FREEZE)
+        if cause is Cause.NOT_ENABLED:
+            still = replace(still, latched=False)
+        return Symptom(cause, message, FOUND_OPEN), still
 
     @property
     def _forbidden(self) -> Failure | None:

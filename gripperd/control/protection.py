@@ -9,25 +9,32 @@ from dataclasses import dataclass
 
 from gripperd.control.command import Failure
 from gripperd.control.dispatch import Dispatch
-from gripperd.control.faults import Fault, Faults
+from gripperd.control.fault import Fault
+from gripperd.control.faults import Faults
 from gripperd.control.hold import Hold
 from gripperd.control.lifecycle import Lifecycle
 from gripperd.control.monitors.output import overruled
 from gripperd.control.monitors.panel import Panel
-from gripperd.control.monitors.policy import STRENGTH, Cause, Policy, Reaction
-from gripperd.control.monitors.sight import Scatter, Sight
+from gripperd.control.monitors.policy import (
+    OPENING,
+    STRENGTH,
+    Cause,
+    Policy,
+    Reaction,
+)
+from gripperd.control.monitors.sight import Scatter, Sight, Symptom
 from gripperd.control.monitors.tightened import check_tightened, tightened
 from gripperd.control.output import Output
 from gripperd.control.profile import Profile
-from gripperd.control.reaction import OPENING, Ease, Response, response
+from gripperd.control.reaction import Ease, Response, response
 from gripperd.control.snapshot import Instant
-from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.states import BOUND, Event, Grip, Machine
+from gripperd.errors import Refused
 from gripperd.model import Chain
 from gripperd.signals import Measurement
 
-BOUND = frozenset({Machine.FAULT_REACTION, Machine.FAULT, Machine.ESTOPPED})
-"""States in which nothing that is latched has anything left to stop."""
-
+REACTING = frozenset({Machine.FAULT_REACTION, Machine.ESTOPPED})
+"""States in which the jaws may move by themselves."""
 STILL = frozenset({Reaction.HOLD, Reaction.FREEZE})
 """Reactions that move nothing."""
 
@@ -39,6 +46,8 @@ class Sample:
     measured: Measurement
     scatter: Scatter
     chain: Chain
+    contacts: tuple[tuple[Symptom, Policy], ...] = ()
+    """Interlocks that are open."""
 
 
 class Protection:
@@ -76,17 +85,17 @@ class Protection:
     @property
     def reacting(self) -> bool:
         """Whether a reaction is being carried out."""
-        return self._life.state is Machine.FAULT_REACTION
+        return self._response is not None and self._life.state in REACTING
 
     def watch(self, sample: Sample, dt: float, now: Instant) -> None:
         """Look at one sample, and stop what may not go on."""
         sight = self._sight(sample)
         symptoms = [*self._panel.look(sight, dt), *overruled(self._output, sight)]
         told = ((symptom, sight.policies[symptom.cause]) for symptom in symptoms)
-        raised = self._faults.update(told, dt, now)
+        raised = self._faults.update((*told, *sample.contacts), dt, now)
         latched = [fault for fault in raised if fault.latched]
         if latched:
-            worst = max(latched, key=lambda fault: STRENGTH[fault.reaction])
+            worst = max(latched, key=_rank)
             self._respond(worst, worst.reaction, sight, now)
         elif self._faults.latched and self._life.state not in BOUND:
             # It outlived a lost link or an emergency stop; nothing moves for it again.
@@ -94,24 +103,41 @@ class Protection:
 
     def step(self, measured: Measurement, dt: float) -> None:
         """Advance the reaction by one period."""
-        if not self.reacting or self._response is None:
+        if self._response is None or not self.reacting:
             self._response = None
             return
         ended = self._response.step(measured, dt)
         self._output.current = self._response.ramp.current
         if ended is None:
             return
-        self._life.on(Event.REACTED)
+        if self._life.state is Machine.FAULT_REACTION:
+            self._life.on(Event.REACTED)
         self._response = None
         if self._reaction in OPENING:
             self._hold.settle(Grip.RELEASED if ended else Grip.UNKNOWN, None)
 
     def freeze(self, measured: Measurement | None) -> None:
         """Stop a reaction where it is."""
-        if self.reacting and self._response is not None and measured is not None:
-            self._response.rest(measured)
-            self._output.current = current = self._response.ramp.current
+        if self.reacting and measured is not None:
+            self._interrupt(measured)
+            current = self._output.current
             self._reaction, self._response = Reaction.FREEZE, Ease(current, current)
+
+    def forget(self) -> None:
+        """Carry out nothing any more; a lost link has ended it."""
+        self._response = None
+
+    def check_rest(self) -> None:
+        """Refuse to go on while a reaction still opens the jaws.
+
+        Raises
+        ------
+        Refused
+            One does.
+        """
+        if self.reacting and self._reaction in OPENING:
+            message = f"the jaws are still opening: {self._reaction}"
+            raise Refused(message, code="wrong-state", hints=("wait", "or stop them"))
 
     def check(self, profile: Profile) -> None:
         """Refuse a profile that wants to be watched less closely than the gripper is.
@@ -145,15 +171,31 @@ class Protection:
         self._dispatch.rest()
         failure = Failure(category="fault", code=fault.cause, message=fault.message)
         self._dispatch.end_all(failure, now)
-        stronger = STRENGTH[reaction] > STRENGTH[self._reaction]
-        if self.reacting and not stronger:
-            return
-        self._life.on(Event.FAIL)
+        estop = fault.cause is Cause.ESTOPPED
         if self.reacting:
+            if not estop and STRENGTH[reaction] <= STRENGTH[self._reaction]:
+                return
+            self._interrupt(sight.measured)
+        self._life.on(Event.FAIL)
+        # An emergency stop is the end of everything but its own reaction.
+        if estop or self._life.state is Machine.FAULT_REACTION:
             self._begin(reaction, sight)
+
+    def _interrupt(self, measured: Measurement) -> None:
+        """Let the jaws rest where they are by now."""
+        assert self._response is not None
+        self._response.rest(measured)
+        self._output.current = self._response.ramp.current
+        if self._reaction in OPENING:
+            self._hold.settle(self._hold.interrupted, None)
 
     def _begin(self, reaction: Reaction, sight: Sight) -> None:
         self._reaction = reaction
         self._response = response(reaction, self._output.current, sight)
         if reaction in OPENING:
             self._hold.settle(Grip.RELEASING, None)
+
+
+def _rank(fault: Fault) -> tuple[bool, int]:
+    """Which of several faults is reacted to."""
+    return fault.cause is Cause.ESTOPPED, STRENGTH[fault.reaction]

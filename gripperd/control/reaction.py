@@ -18,8 +18,6 @@ REDUCTION_RATE = 20e-3
 """As fast as a release: the part is being damaged. [A/s]"""
 MOST_REDUCTIONS = 4
 """So often a force that is too high is eased; each takes away most of what is left."""
-OPENING = frozenset({Reaction.CONTROLLED_RELEASE, Reaction.VENT})
-"""Reactions that let go."""
 
 
 class Response(Protocol):

@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 
+from gripperd.control.fault import Fault
 from gripperd.control.held import Held
 from gripperd.control.regulation import RegulationState
 from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.zero import UNTARED, Zero
 from gripperd.signals import Measurement
 
 
@@ -43,7 +45,11 @@ class GripperState:
     """Name of the model that it goes by."""
     held: Held | None = None
     """What is held and under which limits, where that is known."""
+    strongest: float | None = None
+    """Highest grip force since something has been held. [N]"""
     regulation: RegulationState | None = None
     """How its force is kept."""
-    zero: float = 0.0
-    """What the force sensor shows without a load. [N]"""
+    faults: tuple[Fault, ...] = ()
+    """Those that still matter, oldest first."""
+    zero: Zero = UNTARED
+    """What the force sensor shows without a load."""

@@ -82,6 +82,11 @@ class Sign(StrEnum):
     """Nothing that is seen can tell."""
 
 
+APART = frozenset({Machine.OFFLINE, Machine.ATTACHING})
+"""States in which it is not known what the module does."""
+BOUND = frozenset({Machine.FAULT_REACTION, Machine.FAULT, Machine.ESTOPPED})
+"""States that only a person ends; nothing that is latched has more to stop in them."""
+
 _ONLINE = {
     Event.LINK_LOST: Machine.OFFLINE,
     Event.FAIL: Machine.FAULT_REACTION,

@@ -10,6 +10,7 @@ import structlog
 from gripperd.control.command import Command, GraspOrder
 from gripperd.control.ledger import Key
 from gripperd.control.loop import Loop
+from gripperd.control.monitors.policy import Cause
 from gripperd.control.swap import swap
 from gripperd.control.task import Task
 from gripperd.control.timing import Timing
@@ -39,6 +40,8 @@ class Overview(msgspec.Struct, frozen=True):
     """Log lines that were dropped, because nobody took them in time."""
     ended: dict[str, dict[str, int]] = {}
     """How many commands of each gripper are over, by kind and status."""
+    raised: dict[str, dict[Cause, int]] = {}
+    """How many faults each gripper has had, by cause."""
 
 
 class Submitted(msgspec.Struct, frozen=True):
@@ -209,6 +212,10 @@ class ControlDesk:
             unlogged=self._unlogged(),
             ended={
                 name: dict(loop.gripper.ledger.ended)
+                for name, loop in self._loops.items()
+            },
+            raised={
+                name: dict(loop.gripper.faults.raised)
                 for name, loop in self._loops.items()
             },
         )

@@ -4,7 +4,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from gripperd.control.faults import Fault
+from gripperd.control.fault import Fault
 from gripperd.control.gripper import Gripper
 from gripperd.control.snapshot import GripperState, Instant
 

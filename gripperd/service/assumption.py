@@ -4,10 +4,13 @@ The choices are on the careful side, and the reply shows them. They are no measu
 who knows the object makes a profile.
 """
 
+from dataclasses import replace
 from math import pi
 
+from gripperd.control.held import Held
 from gripperd.control.profile import Mode, Profile
 from gripperd.model import Chain, PressedObject
+from gripperd.units import STANDARD_GRAVITY
 
 NAME = "unnamed"
 VERSION = 0
@@ -89,3 +92,32 @@ def assumed_profile(
         approach=APPROACH,
         ramp=RAMP,
     )
+
+
+def unnamed_held(opening: float | None, strongest: float, chain: Chain) -> Held | None:
+    """Make up what is held from how it is held; None without an opening.
+
+    It may weigh anything. Who closed the jaws on it wanted the slip margin at least, so
+    it is as heavy as the highest force allows.
+
+    Parameters
+    ----------
+    opening
+        Of the jaws now. [m]
+    strongest
+        Highest force per jaw so far. [N]
+    chain
+        The model of the gripper.
+
+    Raises
+    ------
+    DomainError
+        When the model has no answer there.
+    """
+    if opening is None:
+        return None
+    size = opening + strongest / STIFFNESS
+    profile = assumed_profile(size, current=None, force=strongest, chain=chain)
+    carried = 2 * FRICTION * strongest / SLIP_MARGIN
+    mass = carried / (STANDARD_GRAVITY + ACCELERATION)
+    return Held(profile=replace(profile, mass=mass), size=size)

@@ -9,7 +9,7 @@ from pydantic import Field
 from starlette.responses import Response
 
 from gripperd.config import FailMode
-from gripperd.control.states import Machine
+from gripperd.control.states import APART, BOUND
 from gripperd.drivers.facts import RigFacts, warnings
 from gripperd.errors import LinkError
 from gripperd.link.buses import BusFigures, ReadBuses
@@ -79,7 +79,7 @@ async def live() -> Health:
 
 @routes.get("/health/ready", response_model=Health)
 async def ready(request: Request, daemon: Daemon) -> Health | Response:
-    """Control answers and every gripper has its link; else 503 with the reasons."""
+    """Control answers and nothing keeps a gripper from working; else 503 with why."""
     found = [await _reason(daemon, name) for name in daemon.fleet]
     reasons = [reason for reason in found if reason]
     if not reasons:
@@ -94,8 +94,11 @@ async def _reason(daemon: Context, name: str) -> str | None:
         state = (await daemon.states.get(name)).document
     except LinkError as error:
         return str(error)
-    if state.machine in {Machine.OFFLINE, Machine.ATTACHING}:
+    if state.machine in APART:
         return f"{name} is {state.machine}: {state.link}"
+    if state.machine in BOUND:
+        causes = "; ".join(each.message for each in state.faults if each.latched)
+        return f"{name} is {state.machine}: {causes}"
     return None
 
 

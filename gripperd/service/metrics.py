@@ -1,5 +1,6 @@
 """Figures for Prometheus, read at the moment they are asked for."""
 
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 
@@ -17,6 +18,7 @@ from prometheus_client.exposition import CONTENT_TYPE_PLAIN_0_0_4
 from prometheus_client.registry import Collector
 from starlette.responses import Response
 
+from gripperd.control.monitors.policy import Cause
 from gripperd.control.states import Grip, Machine
 from gripperd.control.timing import BOUNDS, Distribution
 from gripperd.errors import LinkError
@@ -95,7 +97,19 @@ class Figures(Collector):
                 force.add_metric([state.name, felt.quality], felt.value)
             for loss, seconds in _losses(state):
                 budget.add_metric([state.name, loss], seconds)
-        yield from (machine, grip, current, force, budget)
+        yield from (machine, grip, current, force, budget, self._faults())
+
+    def _faults(self) -> Metric:
+        active = GaugeMetricFamily(
+            "gripperd_faults_active",
+            "Faults that still matter.",
+            labels=["gripper", "cause"],
+        )
+        for state in self._states:
+            now = Counter(fault.cause for fault in state.faults)
+            for cause in Cause:
+                active.add_metric([state.name, cause], now[cause])
+        return active
 
 
 def _losses(state: StateDocument) -> Iterator[tuple[str, float]]:
@@ -120,6 +134,15 @@ def _of_control(overview: Overview) -> Iterator[Metric]:
         for what, count in ended.items():
             commands.add_metric([gripper, *what.split()], count)
     yield commands
+    faults = CounterMetricFamily(
+        "gripperd_faults",
+        "Faults there have been, since the start of control.",
+        labels=["gripper", "cause"],
+    )
+    for gripper, raised in overview.raised.items():
+        for cause in Cause:
+            faults.add_metric([gripper, cause], raised.get(cause, 0))
+    yield faults
     overruns = CounterMetricFamily(
         "gripperd_overruns",
         "Periods that began late, the one before not being over.",

@@ -1,9 +1,10 @@
 """The state of a gripper as a document; never an old value as if it were new."""
 
+from datetime import datetime
+
 from pydantic import Field
 
 from gripperd.config import FailMode, GripperSettings
-from gripperd.control.budget import Cause, budget
 from gripperd.control.interlocks import closed
 from gripperd.control.regulation import RegulationState
 from gripperd.control.snapshot import GripperState
@@ -11,7 +12,9 @@ from gripperd.control.states import Event, Grip, Machine
 from gripperd.control.trust import Level
 from gripperd.errors import DomainError
 from gripperd.model import Chain, PressedObject
-from gripperd.service.rendering import Document, known, optional, to
+from gripperd.service.fault_documents import FaultDocument, fault_document
+from gripperd.service.hold_budget import BudgetDocument, hold_budget
+from gripperd.service.rendering import Document, known, optional, timestamp, to
 from gripperd.signals import Measurement, Quality, Reading
 from gripperd.units import MILLI
 
@@ -68,15 +71,6 @@ class InterlocksDocument(Document):
     estop: bool | None = Field(description="False: pressed, or its wire is cut.")
 
 
-class BudgetDocument(Document):
-    """Seconds until the grip force is under the slip limit; null: it stays above."""
-
-    air_s: float | None = Field(description="After the loss of air.")
-    power_s: float | None = Field(description="After the loss of power.")
-    bus_s: float | None = Field(description="After the loss of the bus.")
-    limited_by: Cause | None
-
-
 class StateDocument(Document):
     """Everything about a gripper at one moment."""
 
@@ -91,6 +85,9 @@ class StateDocument(Document):
     adopted: bool = Field(description="The current was found, not commanded.")
     measured: MeasuredValues
     interlocks: InterlocksDocument
+    faults: tuple[FaultDocument, ...] = Field(
+        description="Those that still matter, oldest first."
+    )
     prediction: PresentPrediction | None = Field(
         description="Null unless current, opening and model are known."
     )
@@ -98,9 +95,10 @@ class StateDocument(Document):
         description="Null unless an object is held under a profile."
     )
     hold_budget: BudgetDocument | None = Field(
-        description="Null unless it is known what is held, and how hard."
+        description="Null unless something is held, and it is known how hard."
     )
     zero_N: float = Field(description="Taken off what the force sensor shows.")
+    tared_at: datetime | None = Field(description="When; null: never tared.")
     fail_mode: FailMode = Field(description="What happens without power or air.")
     model: str = Field(description="Name of the version that it goes by.")
 
@@ -125,10 +123,12 @@ def state_document(state: GripperState, settings: GripperSettings) -> StateDocum
             force_N=_measured("grip", "N", state),
         ),
         interlocks=_interlocked(state.measured if fresh else None),
+        faults=tuple(map(fault_document, state.faults)),
         prediction=_predicted(state, settings.chain) if fresh else None,
         regulation=_regulated(state.regulation),
-        hold_budget=_lasting(state, settings),
-        zero_N=to("N", state.zero),
+        hold_budget=hold_budget(state, settings),
+        zero_N=to("N", state.zero.force),
+        tared_at=timestamp(taken) if (taken := state.zero.taken_at) else None,
         fail_mode=settings.fail_mode,
         model=state.model,
     )
@@ -156,29 +156,6 @@ def _regulated(found: RegulationState | None) -> RegulationDocument | None:
         wanted_N=known("N", found.wanted),
         correction_kPa=to("kPa", found.correction),
         most_kPa=to("kPa", found.most),
-    )
-
-
-def _lasting(state: GripperState, settings: GripperSettings) -> BudgetDocument | None:
-    """The budget by the last measurement, less the time since."""
-    if state.held is None or state.measured is None or state.age is None:
-        return None
-    if state.model != settings.chain.name:
-        return None
-    found = budget(
-        state.held,
-        state.measured,
-        settings.chain,
-        fail_mode=settings.fail_mode,
-        worst_leak=settings.worst_leak,
-    )
-    if found is None:
-        return None
-    return BudgetDocument(
-        air_s=known("s", max(found.air - state.age, 0.0)),
-        power_s=known("s", max(found.power - state.age, 0.0)),
-        bus_s=known("s", max(found.bus - state.age, 0.0)),
-        limited_by=found.limited_by,
     )
 
 

@@ -11,6 +11,7 @@ from rich.console import Console
 from tests.benchmarks import (
     bus,
     faults,
+    footprint,
     latency,
     outage,
     physics,
@@ -28,6 +29,7 @@ CHAPTERS = {
     "latency": latency,
     "stopping": stopping,
     "punctuality": punctuality,
+    "footprint": footprint,
 }
 
 

@@ -117,6 +117,9 @@ def test_an_egg_is_held_through_every_end_and_adopted(
             until(lambda: len(held.tap.asked) > before + 100)
         state = held.state()
         assert (state["grip"], state["adopted"]) == ("holding", True)
+        # Nobody knows any more what it is, so less of it counts.
+        assert state["hold_budget"]["assumed"]
+        assert 0 < state["hold_budget"]["air_s"] < 33
         assert held.tap.written(ended_at) == []
         forces = [each.grip for each in truth.states]
         assert min(forces) == pytest.approx(forces[0], rel=SETTLED)
@@ -142,6 +145,35 @@ def test_nothing_is_written_on_a_first_start(tmp_path: Path) -> None:
     with cell(tmp_path) as fresh:
         until(lambda: len(fresh.tap.asked) > 100)
         assert fresh.tap.written(0.0) == []
+
+
+def test_a_tare_survives_a_restart_and_is_told(tmp_path: Path) -> None:
+    with cell(tmp_path) as tared:
+        with tared.http as http:
+            done = http.post(
+                "/grippers/g0/commands",
+                json={"type": "tare"},
+                headers={"Prefer": "wait=60"},
+            ).json()
+        assert done["status"] == "succeeded"
+        before = tared.state()
+        assert before["zero_N"] == done["result"]["zero_N"]
+        assert before["tared_at"] is not None
+        until((tmp_path / "state" / "zeros" / "g0.yaml").exists)
+        killed(tared)
+        tared.start("control")
+        until(tared.ready)
+        after = tared.state()
+        kept = ("zero_N", "tared_at")
+        assert [after[key] for key in kept] == [before[key] for key in kept]
+        assert "adopted the zero of the force sensor" in tared.log.read_text()
+        until(lambda: tells(tared, "adopted the zero of the force sensor"))
+
+
+def tells(cell: Cell, what: str) -> bool:
+    with cell.http as http:
+        events = http.get("/history", params={"kind": "adoption"}).json()["events"]
+    return any(what in event["text"] for event in events)
 
 
 def test_a_killed_motion_stays_where_it_was_and_is_not_gone_on_with(

@@ -61,6 +61,19 @@ def test_readiness_is_told_when_the_interface_answers_and_not_before(
             assert state["machine"] == "ready"
 
 
+def test_what_runs_for_months_loads_no_numerics_that_it_does_not_use(
+    tmp_path: Path,
+) -> None:
+    with running_daemon(tmp_path) as daemon:
+        pids = {"run": daemon.process.pid, **children(daemon.process)}
+        assert set(pids) == {"run", "bench", "control", "service"}
+        for name, pid in pids.items():
+            mapped = Path(f"/proc/{pid}/maps").read_text()
+            assert "/numpy/" in mapped, name
+            for heavy in ("scipy", "pyarrow", "llvmlite", "matplotlib"):
+                assert f"/{heavy}/" not in mapped, f"{name} loads {heavy}"
+
+
 def test_the_service_is_killed_and_the_grip_does_not_notice(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         held = hold_an_egg(daemon)

@@ -34,6 +34,8 @@ def test_a_stop_freezes_the_jaws_within_100_ms(
     # What is felt stays held, with about the force it had.
     assert ready.rig.plant.grip == pytest.approx(force, rel=0.1, abs=1.0)
     assert (ready.state.grip is Grip.HOLDING) == (force > 1.0)
+    held = ready.state.held
+    assert (held and held.profile.name) == (name if force > 1.0 else None)
 
 
 @pytest.mark.parametrize("periods", [100, 110, 120])
@@ -87,7 +89,11 @@ def test_a_stop_during_a_release_keeps_what_is_still_held(
     placed = ready.rig.plant.placed
     assert placed is not None
     assert placed.state is ObjectState.HELD
-    assert ready.state.grip is Grip.HOLDING
+    assert (ready.state.grip, ready.state.holding) == (Grip.HOLDING, name)
+    held = ready.state.held
+    assert held is not None
+    # The current stays as it is by now; nobody goes back to the force it had.
+    assert (held.profile.name, held.force) == (name, None)
 
 
 def test_a_stop_empties_the_queue(ready: Stage, apple: GraspOrder) -> None:

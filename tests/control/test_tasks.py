@@ -20,6 +20,7 @@ from gripperd.control.task import (
     Task,
     Vent,
 )
+from gripperd.control.zero import UNTARED
 from gripperd.errors import Refused
 from gripperd.model import Chain
 
@@ -202,7 +203,8 @@ def test_a_sensor_that_is_off_is_set_to_zero(chain: Chain, profiles: Profiles) -
     assert isinstance(command.finding, Tared)
     assert command.finding.zero == pytest.approx(1.5, abs=0.05)
     assert command.finding.noise == pytest.approx(0.05, rel=0.5)
-    assert made.state.zero == command.finding.zero
+    assert made.state.zero.force == command.finding.zero
+    assert made.state.zero.taken_at == pytest.approx(made.instant.wall, abs=0.1)
     made.rig.plant.place(real(profiles["apple"]))
     order = ordered(profiles["apple"], Mode.FORCE)
     assert made.complete(order).status is Status.SUCCEEDED
@@ -212,7 +214,7 @@ def test_a_sensor_that_is_off_is_set_to_zero(chain: Chain, profiles: Profiles) -
 def test_a_sensor_is_not_tared_under_a_load(holding: Stage) -> None:
     with pytest.raises(Refused, match="vented"):
         holding.submit(Tare())
-    assert holding.state.zero == 0.0
+    assert holding.state.zero == UNTARED
 
 
 def test_a_sensor_that_is_far_off_or_dead_is_not_tared(chain: Chain) -> None:

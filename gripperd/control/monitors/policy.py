@@ -23,6 +23,10 @@ class Cause(StrEnum):
     """Somebody else wrote the valve current."""
     MODULE_RESTARTED = "module_restarted"
     """The output module is back at the value it has after power-on."""
+    NOT_ENABLED = "not_enabled"
+    """The contact of the external enable is open."""
+    ESTOPPED = "estopped"
+    """That of the emergency stop is; who closes it again need not acknowledge it."""
 
 
 class Reaction(StrEnum):
@@ -40,6 +44,8 @@ class Reaction(StrEnum):
     """Go to the live zero at once."""
 
 
+OPENING = frozenset({Reaction.CONTROLLED_RELEASE, Reaction.VENT})
+"""Reactions that let go."""
 STRENGTH = MappingProxyType({each: rank for rank, each in enumerate(Reaction)})
 """Rank of each reaction: of two the stronger one is carried out."""
 
@@ -81,6 +87,8 @@ POLICIES: Mapping[Cause, Policy] = MappingProxyType(
         Cause.SENSOR_FAILED: Policy(after=0.1),
         Cause.OUTPUT_CHANGED: Policy(after=0.0),
         Cause.MODULE_RESTARTED: Policy(after=0.0, latched=True),
+        Cause.NOT_ENABLED: Policy(after=0.0, reaction=Reaction.FREEZE),
+        Cause.ESTOPPED: Policy(after=0.0, reaction=Reaction.FREEZE, latched=True),
     }
 )
 """What applies unless the settings say otherwise."""
@@ -112,6 +120,8 @@ DETECTION: Mapping[Cause, float] = MappingProxyType(
         Cause.SENSOR_FAILED: 0.6,
         Cause.OUTPUT_CHANGED: 0.05,
         Cause.MODULE_RESTARTED: 0.05,
+        Cause.NOT_ENABLED: 0.05,
+        Cause.ESTOPPED: 0.05,
     }
 )
 """Promise at 100 Hz and with the policies above: longest time from a change that is

@@ -19,8 +19,8 @@ as well, and has lost a quarter by then. [s]"""
 SUDDEN_SHARE = 0.6
 """Share of a loss that is there after that time if it was sudden. [-]"""
 COARSE = 0.2
-"""Share of the pressure that is too little from the beginning of a hold on; less may
-be an error of the model. [-]"""
+"""Share of the pressure that is too little, or too much, from the beginning of a hold
+on; less may be an error of the model. [-]"""
 LEAST = 0.25
 """Share of the span that limits are taken of where less is asked for. [-]"""
 UNMOVED = 0.2
@@ -87,9 +87,10 @@ class PressureFollows:
             return
         if rest - dt < SETTLED:
             error = found - asked
-            # So much is missing that the model cannot be to blame.
-            missing = -error > COARSE * asked
-            self._bias = 0.0 if missing else error
+            # By so much the model cannot be to blame.
+            most = max(asked, LEAST * _span(sight))
+            wrong = -error > COARSE * asked or error > COARSE * most
+            self._bias = 0.0 if wrong else error
         self._start = asked, found
 
     def _deafness(

@@ -141,6 +141,18 @@ def test_a_valve_that_ignores_a_release_is_noticed_in_time(
     assert made.failure(release).code == "valve_not_following"
 
 
+@pytest.mark.parametrize("after", [0.05, 0.3, 1.0])
+def test_a_valve_that_goes_off_right_after_a_grasp_is_not_taken_for_normal(
+    chain: Chain, profiles: Profiles, after: float
+) -> None:
+    made = stage(chain, 1)
+    made.rig.plant.place(real(profiles["apple"]))
+    made.complete(ordered(profiles["apple"], Mode.FORCE))
+    made.run(after)
+    made.rig.plant.faults = BenchFaults(valve_offset=60e3)
+    appeared(made, Cause.VALVE_NOT_FOLLOWING, 2.0)
+
+
 def test_a_valve_that_ignores_a_grasp_is_noticed(
     chain: Chain, profiles: Profiles
 ) -> None:

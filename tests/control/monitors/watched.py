@@ -7,7 +7,7 @@ from gripperd.bench.faults import BenchFaults
 from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Sensor, SensorSettings
 from gripperd.control.command import Status
-from gripperd.control.faults import Fault
+from gripperd.control.fault import Fault
 from gripperd.control.monitors.policy import AS_SHIPPED, Cause, Monitoring
 from gripperd.control.profile import Mode, Profile
 from gripperd.model import Chain

@@ -1,0 +1,64 @@
+"""The way out of a fault, as a person types it."""
+
+import json
+from collections.abc import Iterator
+from subprocess import CompletedProcess
+
+import httpx
+import pytest
+
+from tests.daemon import Daemon, gripperd, running_daemon, until
+
+GRIPPER = "/v1/grippers/g0"
+
+
+@pytest.fixture(scope="module")
+def daemon(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Daemon]:
+    with running_daemon(tmp_path_factory.mktemp("daemon")) as daemon:
+        yield daemon
+
+
+def said(daemon: Daemon, *arguments: str) -> CompletedProcess[str]:
+    return gripperd(*arguments, GRIPPERD_URL=daemon.url)
+
+
+def refuses(daemon: Daemon, status: int, why: str, *arguments: str) -> None:
+    refused = said(daemon, *arguments)
+    assert refused.returncode == status
+    assert why in refused.stderr
+
+
+def test_what_is_well_has_nothing_to_tell(daemon: Daemon) -> None:
+    assert said(daemon, "faults").stdout == "no faults\n"
+    assert said(daemon, "acknowledge", "all").stdout == "nothing to acknowledge\n"
+    refuses(daemon, 1, "reset is not possible while the gripper is ready", "reset")
+
+
+def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
+    url = daemon.url
+    httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"}).raise_for_status()
+    assert said(daemon, "grasp", "apple").returncode == 0
+    broken = {"valve_offset_kPa": 60}
+    httpx.put(f"{url}/v1/bench/faults", json=broken).raise_for_status()
+    until(lambda: httpx.get(f"{url}{GRIPPER}").json()["machine"] == "fault")
+
+    status = said(daemon, "status").stdout
+    assert status.startswith("g0: fault, holding")
+    assert "valve_not_following, latched, since 20" in status
+    assert "to do: acknowledge, mend, reset, enable" in status
+    listed = json.loads(said(daemon, "faults", "--active", "--json").stdout)["faults"]
+    (fault,) = (each for each in listed if each["latched"])
+    refuses(daemon, 1, "not acknowledged yet", "reset")
+    refuses(daemon, 2, "0 faults begin with 'xyz'; there is", "acknowledge", "xyz")
+    seen = said(daemon, "acknowledge", fault["id"][:8], "--by", "Ada")
+    assert "acknowledged by Ada" in seen.stdout
+    assert "to do: mend, reset, enable" in seen.stdout
+    refuses(daemon, 1, "still so", "reset")
+
+    httpx.delete(f"{url}/v1/bench/faults").raise_for_status()
+    until(lambda: "to do: reset, enable" in said(daemon, "faults", "--active").stdout)
+    current = httpx.get(f"{url}/v1/bench").json()["current_mA"]
+    assert said(daemon, "reset").stdout == "disabled, holding\n"
+    assert json.loads(said(daemon, "enable", "--json").stdout)["machine"] == "ready"
+    assert httpx.get(f"{url}/v1/bench").json()["current_mA"] == current
+    assert "to do: reset" not in said(daemon, "faults").stdout
