@@ -34,10 +34,8 @@ class Here:
 @pytest.fixture
 def here(tmp_path: Path) -> Iterator[Here]:
     """Settings and profiles that may be edited; nobody controls anything."""
-    file = settings_file(tmp_path)
     shutil.copytree(shipped("profiles"), tmp_path / "profiles")
-    file.write_text(file.read_text().replace(str(shipped("profiles")), "profiles"))
-    settings = load_settings(file, {})
+    settings = load_settings(settings_file(tmp_path), {})
     with (
         running(lambda report: service(settings, report, bench=False)) as url,
         httpx.Client(base_url=url, timeout=30) as http,
