@@ -23,7 +23,7 @@ from tests.drivers.peer import Behaviour, Line, Peer, listening
 from tests.faults.row import Row
 from tests.interop.programs import free_port
 
-TRIES = 10
+TRIES = 5
 OFFLINE_WITHIN, BACK_WITHIN = 0.3, 2.0
 """[s]"""
 PATIENCE = 20.0
