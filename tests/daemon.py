@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, NamedTuple
@@ -25,11 +25,17 @@ class Daemon(NamedTuple):
 
 
 def settings_file(folder: Path) -> Path:
-    """The shipped settings with free ports and sockets of their own."""
+    """The shipped settings with free ports and sockets of their own.
+
+    Where the folder has profiles of its own, they take the place of the shipped ones.
+    """
     text = shipped("gripperd.yaml").read_text()
     text = text.replace("port: 8765", "port: 0").replace(":15020", ":0")
     for name in ("models", "profiles"):
         text = text.replace(f": {name}", f": {shipped(name)}")
+    own = folder / "profiles"
+    if own.is_dir():
+        text = text.replace(str(shipped("profiles")), own.name)
     path = folder / "gripperd.yaml"
     places = f"runtime_dir: {folder / 'run'}\nstate_dir: {folder / 'state'}\n"
     path.write_text(places + text)
@@ -49,10 +55,15 @@ def gripperd(*arguments: str, **environment: str) -> "subprocess.CompletedProces
 
 
 @contextmanager
-def running(*arguments: str, **environment: str) -> "Iterator[subprocess.Popen[str]]":
-    """Run a command inside, and end it as a service manager would."""
+def running(
+    *arguments: str, within: Sequence[str] = (), **environment: str
+) -> "Iterator[subprocess.Popen[str]]":
+    """Run a command inside, and end it as a service manager would.
+
+    `within` is the beginning of a command line that ends with what to execute.
+    """
     process = subprocess.Popen(
-        [*START, *arguments],
+        [*within, *START, *arguments],
         stdout=subprocess.PIPE,
         text=True,
         env=os.environ | {"PYTHONUNBUFFERED": "1"} | environment,
@@ -67,9 +78,12 @@ def running(*arguments: str, **environment: str) -> "Iterator[subprocess.Popen[s
 
 
 @contextmanager
-def running_daemon(folder: Path) -> Iterator[Daemon]:
+def running_daemon(
+    folder: Path, within: Sequence[str] = (), **environment: str
+) -> Iterator[Daemon]:
     """Run the daemon inside, ready."""
-    with running("run", "--config", str(settings_file(folder))) as process:
+    arguments = ("run", "--config", str(settings_file(folder)))
+    with running(*arguments, within=within, **environment) as process:
         assert process.stdout is not None
         host, port = found(process.stdout, r"TCP on ([\d.]+):(\d+)")
         (url,) = found(process.stdout, r"(http://\S+)")

@@ -1,7 +1,7 @@
 """What a daemon is told to do: the settings of every layer, put together. SI values."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from ipaddress import ip_address
 from pathlib import Path
 
@@ -107,5 +107,7 @@ class Settings:
     bench: BenchSettings
     source: Path
     """The file all this was read from."""
+    content: Mapping[str, object] = field(default_factory=dict)
+    """The file itself, as plain values."""
     warnings: tuple[str, ...] = ()
     """What is allowed, and doubtful, about the settings themselves."""

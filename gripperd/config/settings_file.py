@@ -132,6 +132,7 @@ def load_settings(
     around = Surroundings(folder, ModuleLibrary(_own_modules(document, folder)))
     section = validated(SettingsSection, document, around)
     bench = section.bench
+    assert isinstance(document.value, dict)
     return Settings(
         http=Http(host=section.http.host, port=section.http.port),
         runtime_dir=runtime_dir(section.runtime_dir, folder, environ),
@@ -147,6 +148,7 @@ def load_settings(
             noise=bench.noise_percent / 100,
         ),
         source=source,
+        content=document.value,
         warnings=tuple(_doubts(section)),
     )
 

@@ -4,7 +4,7 @@ Safety does not depend on it: whoever wants may stop. When a lease runs out, wha
 is frozen and what is held stays held.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hmac import compare_digest
 
 from gripperd.control.snapshot import Instant
@@ -38,9 +38,11 @@ class Tenancy:
         self._lease: Lease | None = None
 
     def lease(self, now: Instant) -> Lease | None:
-        """The lease that counts now."""
+        """The lease that counts now; for people, its end by the clock as it is now."""
         lease = self._lease
-        return None if lease is None or now.monotonic >= lease.due else lease
+        if lease is None or now.monotonic >= lease.due:
+            return None
+        return replace(lease, expires_at=now.wall + lease.due - now.monotonic)
 
     def check(self, token: str | None, now: Instant) -> None:
         """Let the owner of the lease pass, and everybody while there is none.

@@ -27,6 +27,7 @@ from gripperd.service import (
     schema,
 )
 from gripperd.service import recordings as recordings_resource
+from gripperd.service import settings as settings_resource
 from gripperd.service.context import Context, shared_states
 from gripperd.service.diagnosing import Diagnosing
 from gripperd.service.failures import answer_failures
@@ -130,6 +131,7 @@ def create_app(
         models,
         recordings_resource,
         diagnoses,
+        settings_resource,
         bench_resource,
     ):
         app.include_router(resource.routes, prefix=VERSIONED, responses=schema.PROBLEM)

@@ -4,6 +4,7 @@ import asyncio
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TypeVar
@@ -71,14 +72,21 @@ class Archive:
         if self._failed is not None and time.monotonic() < self._failed[0]:
             raise self._failed[1]
         try:
-            result = work(self._opened())
+            history = self._opened()
+            result = work(history)
         except Refused as error:
             self._fail(error)
             raise
         if self._failed is not None:
-            log.warning("the history is kept again", path=str(self._path))
-        self._failed = self.trouble = None
+            self._recover(history)
         return result
+
+    def _recover(self, history: History) -> None:
+        """Find out whether the disk takes anything: a full one can still be read."""
+        with suppress(Refused):
+            history.prove()
+            log.warning("the history is kept again", path=str(self._path))
+            self._failed = self.trouble = None
 
     def _opened(self) -> History:
         if self._history is None:

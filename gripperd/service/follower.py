@@ -1,7 +1,6 @@
 """Writes down what control tells of one gripper, and ends what it cannot end itself."""
 
 import asyncio
-import time
 from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 from math import inf
 
@@ -9,6 +8,8 @@ import structlog
 
 from gripperd.control.command import Command
 from gripperd.control.journal import PAGE
+from gripperd.control.loop import clock
+from gripperd.control.snapshot import Instant
 from gripperd.errors import GripperdError, LinkError, NotFound, Refused
 from gripperd.link.client import Client
 from gripperd.link.control import ReadCommand
@@ -61,7 +62,7 @@ class Follower:
     underway
         Ids of commands that somebody is about to give to control.
     now
-        The clock, in seconds since the epoch.
+        The time, on both clocks.
     """
 
     def __init__(
@@ -71,7 +72,7 @@ class Follower:
         archive: Archive,
         broadcast: Broadcast,
         underway: set[str],
-        now: Callable[[], float] = time.time,
+        now: Callable[[], Instant] = clock,
     ) -> None:
         self.life = 0.0
         """Of the control process that was heard last."""
@@ -84,6 +85,8 @@ class Follower:
         self._entry: int | None = None
         self._told = (0.0, -1)
         self._looked = -inf
+        self._seen: dict[str, float] = {}
+        """Commands without an end, and when each was seen first. [s]"""
 
     async def run(self) -> None:
         """Follow for ever; what cannot be kept now is asked for again."""
@@ -143,7 +146,7 @@ class Follower:
 
     def _about_control(self, text: str, page: Page, entry: int) -> EventRecord:
         event = EventDocument(
-            at=timestamp(self._now()),
+            at=timestamp(self._now().wall),
             kind=EventKind.CONTROL,
             gripper=self._gripper,
             text=text,
@@ -157,16 +160,19 @@ class Follower:
 
     async def _ends(self, page: Page) -> AsyncIterator[CommandDocument]:
         """Commands without an end that control does not know: what became of them."""
-        due = page.life != self.life or self._now() - self._looked > LOOK
+        now = self._now().monotonic
+        due = page.life != self.life or now - self._looked > LOOK
         # While there is more to read, that may tell.
         if not due or len(page.entries) == PAGE:
             return
-        for record in await self._archive.do(self._unfinished):
+        unfinished = await self._archive.do(self._unfinished)
+        self._seen = {each.id: self._seen.get(each.id, now) for each in unfinished}
+        for record in unfinished:
             if record.id not in self._underway:
                 found = await self._found(record, page.life)
                 if found is not None:
                     yield found
-        self._looked = self._now()
+        self._looked = now
 
     def _unfinished(self, history: History) -> Sequence[CommandRecord]:
         return history.unfinished(self._gripper)
@@ -176,14 +182,16 @@ class Follower:
     ) -> CommandDocument | None:
         """One command with an end that nobody else tells, if there is one."""
         request = ReadCommand(self._gripper, record.id)
-        late = self._now() - record.created_at > UNDERWAY
+        now = self._now()
+        # By the clock that never steps: one that is set back would keep it waiting.
+        late = now.monotonic - self._seen[record.id] > UNDERWAY
         try:
             command = await self._control.ask(request, Command)
         except NotFound:
             # Nobody had heard of control yet when a command was given to life 0.
             if record.life not in {0.0, life}:
-                return ended(record, RESTARTED, self._now())
-            return ended(record, NEVER_BEGUN, self._now()) if late else None
+                return ended(record, RESTARTED, now.wall)
+            return ended(record, NEVER_BEGUN, now.wall) if late else None
         # Its journal tells, unless too much was missed.
         return command_document(command) if command.final and late else None
 

@@ -8,7 +8,12 @@ from pathlib import Path
 
 import msgspec
 
-from gripperd.config import delete_profile, saved_profiles, write_profile
+from gripperd.config import (
+    SavedProfiles,
+    delete_profile,
+    saved_profiles,
+    write_profile,
+)
 from gripperd.config.complaint import did_you_mean
 from gripperd.control.profile import Profile
 from gripperd.errors import NotFound, Refused
@@ -32,23 +37,34 @@ class ProfileLibrary:
     """
 
     def __init__(self, originals: Mapping[str, Profile], folder: Path) -> None:
-        self._originals = originals
+        self.originals = originals
+        """Those that cannot be changed here."""
+        self.skipped: tuple[str, ...] = ()
+        """What is wrong with files of the folder that could not be read."""
+        self.changing = asyncio.Lock()
+        """To hold from looking at a profile until it is changed."""
         self._folder = folder
-        saved = saved_profiles(folder)
+        self._own: dict[str, Profile] = {}
+        self._versions: dict[str, int] = {}
+        self._take(originals, saved_profiles(folder))
+
+    async def renew(self, originals: Mapping[str, Profile]) -> None:
+        """Go by other originals, and by what users have saved by now."""
+        self._take(originals, await asyncio.to_thread(saved_profiles, self._folder))
+
+    def _take(self, originals: Mapping[str, Profile], saved: SavedProfiles) -> None:
+        self.originals = originals
+        self.skipped = saved.complaints
         self._own = {
             name: profile
             for name, profile in saved.profiles.items()
             if name not in originals
         }
-        self.skipped = saved.complaints
-        """What is wrong with files of the folder that could not be read."""
-        self.changing = asyncio.Lock()
-        """To hold from looking at a profile until it is changed."""
-        self._versions = {name: own.version for name, own in self._own.items()}
+        self._versions |= {name: own.version for name, own in self._own.items()}
 
     def all(self) -> list[Profile]:
         """Every profile, the originals first."""
-        return [*self._originals.values(), *self._own.values()]
+        return [*self.originals.values(), *self._own.values()]
 
     def get(self, name: str) -> Profile:
         """One profile.
@@ -58,20 +74,20 @@ class ProfileLibrary:
         NotFound
             With the name that was probably meant.
         """
-        found = self._originals.get(name) or self._own.get(name)
+        found = self.originals.get(name) or self._own.get(name)
         if found is None:
-            known = [*self._originals, *self._own]
+            known = [*self.originals, *self._own]
             message = f"there is no profile {name!r}; {did_you_mean(name, known)}"
             raise NotFound(message, key="profile")
         return found
 
     def read_only(self, name: str) -> bool:
         """Whether it is an original."""
-        return name in self._originals
+        return name in self.originals
 
     def __contains__(self, name: str) -> bool:
         """Whether there is a profile of that name."""
-        return name in self._originals or name in self._own
+        return name in self.originals or name in self._own
 
     def next_version(self, name: str) -> int:
         """Version that the next saved profile of that name gets."""

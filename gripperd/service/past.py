@@ -91,8 +91,8 @@ class Past:
             ):
                 kept = CommandDocument.model_validate_json(record.document)
                 found.setdefault(kept.id, kept)
-        ordered = sorted(found.values(), key=_age)
-        return ordered[:count]
+        # Both are in the order of acceptance, which the clock's may not be.
+        return list(found.values())[:count]
 
     async def _kept(self, gripper: str, name: str) -> CommandDocument | None:
         try:
@@ -105,7 +105,3 @@ class Past:
 
     def _life(self, gripper: str) -> float:
         return self._followers[gripper].life
-
-
-def _age(command: CommandDocument) -> float:
-    return -command.created_at.timestamp()

@@ -20,7 +20,10 @@ from gripperd.service.connection import (
     Waiting,
 )
 from gripperd.service.crowd import MOST_REQUESTS, Crowd
+from gripperd.units import MILLI
 
+LONGEST_STUCK = 10.0
+"""Time for which a client may leave what was sent to it where it is. [s]"""
 GRACE = 2
 """How long requests in flight may take when the server ends. [s]"""
 
@@ -34,6 +37,8 @@ class Limits:
     """That are being answered at a time."""
     wait: float = LONGEST_WAIT
     """For the headers of a request. [s]"""
+    stuck: float = LONGEST_STUCK
+    """For a client that reads nothing of its answer. [s]"""
 
 
 class _Server(uvicorn.Server):
@@ -77,7 +82,7 @@ async def serve(
     Refused
         When it cannot listen there.
     """
-    listening = await _bound(host, port)
+    listening = await _bound(host, port, limits.stuck)
     url = _url(listening)
     connection = partial(Connection, Waiting(), limits.connections, limits.wait)
     config = uvicorn.Config(
@@ -102,11 +107,11 @@ async def serve(
         raise
 
 
-async def _bound(host: str, port: int) -> socket.socket:
+async def _bound(host: str, port: int, stuck: float) -> socket.socket:
     try:
         loop = asyncio.get_running_loop()
         found = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
-        return _listening(*found[0][:3], address=found[0][4])
+        return _listening(*found[0][:3], address=found[0][4], stuck=stuck)
     except OSError as error:
         where = f"http.host = {host}, http.port = {port}"
         reason = f"cannot listen there: {error.strerror}"
@@ -123,11 +128,16 @@ def _listening(
     protocol: int,
     *,
     address: tuple[Any, ...],
+    stuck: float,
 ) -> socket.socket:
     # With its protocol named, the event loop knows to switch off Nagle's delay.
     made = socket.socket(family, kind, protocol)
     try:
         made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        # Every connection inherits it (tcp(7)). The kernel would keep megabytes for
+        # each client that reads nothing, and never tell.
+        patience = round(stuck / MILLI)
+        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, patience)
         made.bind(address)
         made.listen()
     except OSError:

@@ -45,13 +45,14 @@ def validation_problem(request: Request, refused: RequestValidationError) -> Pro
 
 
 def complaints_problem(complaints: Sequence[str], path: str) -> Problem:
-    """Describe everything that was found wrong with a document in the request."""
+    """Describe everything that was found wrong with a document, or with a file."""
     faults = [_of_complaint(complaint) for complaint in complaints]
     return problem("invalid", _summary(faults), instance=path, faults=faults)
 
 
 def _of_complaint(complaint: str) -> Fault:
-    if isinstance(complaint, Complaint):
+    # A file has lines; a pointer is a place in the request.
+    if isinstance(complaint, Complaint) and not complaint.source:
         return Fault(detail=complaint.detail, pointer=complaint.pointer)
     return Fault(detail=complaint)
 

@@ -103,7 +103,7 @@ def test_a_chance_that_is_no_probability_is_refused() -> None:
 
 HOLDING = Read(1, Table.HOLDING, 0, 4)
 SET = Write(1, 0, (10_700,))
-MODBUS = [
+MODBUS: list[tuple[WireFaultKind, Read | Write, type[LinkError]]] = [
     (WireFaultKind.LATE, HOLDING, ReplyTimeout),
     (WireFaultKind.LOST, SET, ReplyTimeout),
     (WireFaultKind.GARBLED, HOLDING, LinkError),

@@ -55,6 +55,12 @@ class Cell:
     def ready(self) -> bool:
         return self.state().get("machine") == "ready"
 
+    def told(self, kind: str) -> list[str]:
+        """What the history says, newest first."""
+        with self.http as http:
+            found = http.get("/history", params={"kind": kind}).json()
+        return [event["text"] for event in found["events"]]
+
     def hold_an_egg(self) -> float:
         with self.http as http:
             http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()
@@ -94,12 +100,20 @@ def out_of_memory(cell: Cell) -> None:
     cell.end("control", signal.SIGKILL)
 
 
+def upgraded(cell: Cell) -> None:
+    """Both are replaced, the interface first."""
+    cell.end("service", signal.SIGTERM)
+    cell.end("control", signal.SIGTERM)
+
+
 def cable_out(cell: Cell) -> None:
     cell.tap.cut()
     cell.end("control", signal.SIGKILL)
 
 
-@pytest.mark.parametrize("end", [killed, terminated, out_of_memory, cable_out])
+@pytest.mark.parametrize(
+    "end", [killed, terminated, out_of_memory, upgraded, cable_out]
+)
 def test_an_egg_is_held_through_every_end_and_adopted(
     tmp_path: Path, end: Callable[[Cell], None]
 ) -> None:
@@ -127,6 +141,9 @@ def test_an_egg_is_held_through_every_end_and_adopted(
         assert len({each.current for each in truth.states}) == 1
         assert all(_carried(each.placed) for each in truth.states)
         assert told_last(held.log, "state") >= {"adopted=True", "grip=holding"}
+        until(lambda: len(held.told("control")) == 2)
+        found = f"adopted {state['current_mA']:.2f} mA as found"
+        until(lambda: held.told("adoption")[0] == found)
 
 
 def told_last(log: Path, topic: str) -> set[str]:

@@ -1,5 +1,8 @@
 import os
+import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import FrameType
 
 import pytest
 import yaml
@@ -50,6 +53,36 @@ def test_a_longer_draft_left_by_a_power_cut_leaves_nothing_behind(
     replace_file(tmp_path / "active.yaml", "new")
     assert (tmp_path / "active.yaml").read_text() == "new"
     assert names(tmp_path) == ["active.yaml"]
+
+
+def asked_of_the_system(work: Callable[[], None]) -> Sequence[str]:
+    """Names of the calls that decide what a power cut leaves, in their order."""
+    calls: list[str] = []
+
+    def look(_: FrameType, event: str, call: object) -> None:
+        name = getattr(call, "__name__", "")
+        if event == "c_call" and name in {"fsync", "rename", "replace", "link"}:
+            calls.append(name)
+
+    before = sys.getprofile()
+    sys.setprofile(look)
+    try:
+        work()
+    finally:
+        sys.setprofile(before)
+    return calls
+
+
+def test_a_name_is_given_to_what_is_on_the_disk_and_is_there_to_stay(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "there.yaml").write_text("old")
+    replaced = asked_of_the_system(lambda: replace_file(tmp_path / "there.yaml", "new"))
+    assert replaced in (["fsync", "replace", "fsync"], ["fsync", "rename", "fsync"])
+    created = asked_of_the_system(
+        lambda: create_file(tmp_path / "1.yaml", "new", check=Path.read_text)
+    )
+    assert created == ["fsync", "link", "fsync"]
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")

@@ -51,14 +51,21 @@ async def controlled(bus: ModbusBus) -> AsyncIterator[Loop]:
     )
     rig = AnalogRig(bus, GRIPPER.output, GRIPPER.input)
     loop = Loop(gripper, rig, period=PERIOD)
-    running = asyncio.create_task(loop.run())
-    try:
+    async with running(loop):
         await became(loop, Machine.READY)
         yield loop
+
+
+@asynccontextmanager
+async def running(loop: Loop) -> AsyncIterator[None]:
+    """Let a loop control while inside."""
+    control = asyncio.create_task(loop.run())
+    try:
+        yield
     finally:
-        running.cancel()
+        control.cancel()
         with suppress(asyncio.CancelledError):
-            await running
+            await control
 
 
 async def became(loop: Loop, machine: Machine) -> float:

@@ -33,6 +33,12 @@ def test_only_the_owner_passes(tenancy: Tenancy) -> None:
         assert no.value.code == "leased"
 
 
+def test_people_see_its_end_by_the_clock_as_it_is_now(tenancy: Tenancy) -> None:
+    lease = tenancy.lease(Instant(105.0, 2e9))
+    assert lease is not None
+    assert (lease.due, lease.expires_at) == (110.0, 2e9 + 5.0)
+
+
 def test_the_owner_renews_and_nobody_else_takes(tenancy: Tenancy) -> None:
     with pytest.raises(Refused, match="Ann"):
         tenancy.take("Bob", "b", 10.0, at(105.0))

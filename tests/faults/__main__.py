@@ -1,6 +1,6 @@
 """Inject every fault for real, and print how long it takes to tell: ``make faults``.
 
-Rows of quality that nothing injects yet are printed as such, not left out.
+Where a time says nothing, it prints how often each thing came of it.
 """
 
 import logging
@@ -11,36 +11,62 @@ import structlog
 from rich.console import Console
 from rich.table import Table
 
-from tests.faults import process, rig, wire
+from tests.faults import (
+    clock,
+    commands,
+    disk,
+    line,
+    load,
+    models,
+    module,
+    power,
+    process,
+    rig,
+    settings,
+    wire,
+)
 from tests.faults.row import Row
 
-CHAPTERS = {"rig": rig, "wire": wire, "process": process}
-MISSING = (
-    "own echo on RS-485, noise before the frame (no serial line yet)",
-    "power cut at any byte of a write to disk",
-    "database locked, corrupt, read-only; disk full",
-    "clock steps by an hour, daylight saving, leap second",
-    "configuration changed while holding",
-)
+CHAPTERS = {
+    "rig": rig,
+    "wire": wire,
+    "line": line,
+    "module": module,
+    "process": process,
+    "power": power,
+    "disk": disk,
+    "clock": clock,
+    "settings": settings,
+    "models": models,
+    "load": load,
+    "commands": commands,
+}
 
 
 def table(name: str, rows: Iterator[Row]) -> tuple[Table, bool]:
-    """What was measured, and whether every limit was kept."""
-    found = Table(name, "told by", "tries", "median", "longest", "limit", "")
+    """What was measured, and whether all was as it must be."""
+    found = Table(name, "told by, or came of it", "tries", "median", "longest", "limit")
+    found.add_column("")
     kept = True
     for row in rows:
         took = sorted(row.took)
         found.add_row(
             row.fault,
             row.noticed,
-            f"{len(took)}",
-            f"{took[len(took) // 2] * 1e3:.0f} ms",
-            f"{took[-1] * 1e3:.0f} ms",
+            f"{row.tries}",
+            f"{took[len(took) // 2] * 1e3:.0f} ms" if took else "",
+            f"{took[-1] * 1e3:.0f} ms" if took else "",
             "" if row.limit is None else f"{row.limit * 1e3:.0f} ms",
-            "" if row.kept else "TOO LATE",
+            _said(row),
         )
         kept = kept and row.kept
     return found, kept
+
+
+def _said(row: Row) -> str:
+    if row.wrong:
+        return f"WRONG: {', '.join(row.wrong)}"
+    return "" if row.kept else "TOO LATE"
 
 
 def main() -> int:
@@ -54,8 +80,6 @@ def main() -> int:
         found, kept = table(name, CHAPTERS[name].rows())
         console.print(found)
         good = good and kept
-    for missing in MISSING:
-        console.print(f"not injected yet: {missing}")
     return not good
 
 

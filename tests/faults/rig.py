@@ -1,17 +1,27 @@
 """Faults of sensors, valve, air, jaws and part, in the time of the simulated rig."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 
 from gripperd.bench.faults import BenchFaults
 from gripperd.bench.sensors import Channel
 from gripperd.config import load_settings, shipped
-from gripperd.control.monitors.policy import DETECTION, Cause
-from gripperd.control.profile import Profile
+from gripperd.control.command import Outcome
+from gripperd.control.monitors.policy import DETECTION, POLICIES, Cause
+from gripperd.control.profile import Mode, Profile
+from gripperd.control.states import Grip, Machine
 from gripperd.model import Chain
-from tests.control.monitors.watched import appeared, holding, noticed
-from tests.control.stage import Stage
-from tests.faults.row import Row
+from tests.control.monitors.watched import (
+    appeared,
+    faults,
+    holding,
+    noticed,
+    pressing,
+    stage,
+)
+from tests.control.stage import Stage, ordered, real
+from tests.faults.row import Row, counted
 
 PATIENCE = 10.0
 """Of the simulated rig. [s]"""
@@ -37,14 +47,104 @@ BROKEN: tuple[tuple[str, Cause, BenchFaults], ...] = (
 OBJECTS = ("apple", "peach", "raw_egg", "grape")
 
 
+OTHER_SIZE = 0.012
+"""How much another object differs from its profile, beyond every tolerance. [m]"""
+
+
 def rows() -> Iterator[Row]:
-    """Each fault while each object is held."""
+    """Each fault while each object is held, then those of a motion."""
     settings = load_settings(shipped("gripperd.yaml"), {})
     (gripper,) = settings.grippers.values()
-    held = partial(_held, gripper.chain, settings.profiles)
+    chain, profiles = gripper.chain, settings.profiles
+    held = partial(_held, chain, profiles)
     for name, cause, broken in BROKEN:
         yield _row(name, cause, [_noticed(made, cause, broken) for made in held()])
     yield _row("object taken away", Cause.PART_LOST, [_taken(made) for made in held()])
+    egg, apple = profiles["raw_egg"], profiles["apple"]
+    yield over_force(chain, egg)
+    yield drift(chain, apple)
+    yield deaf_valve(chain, [profiles[name] for name in OBJECTS])
+    yield blocked(chain, [profiles[name] for name in OBJECTS])
+    yield restarted(chain, [profiles[name] for name in OBJECTS])
+    yield other_sizes(chain, [profiles[name] for name in OBJECTS])
+
+
+def over_force(chain: Chain, egg: Profile) -> Row:
+    """The valve gives more than it is told, more than an egg can bear for long."""
+    made = holding(chain, egg)
+    took = _noticed(made, Cause.OVER_FORCE, BenchFaults(valve_offset=40e3))
+    made.until(lambda: made.state.machine is Machine.FAULT)
+    eased = egg.slip_force < made.rig.plant.grip < egg.damage_force / 1.3
+    wrong = () if eased and made.peak() < egg.damage_force else ("not eased in time",)
+    return _row("held too hard", Cause.OVER_FORCE, [took], wrong)
+
+
+def drift(chain: Chain, apple: Profile) -> Row:
+    """Less air gets lost than counts as a leak, and still the force goes away."""
+    made = holding(chain, apple)
+    took = _noticed(made, Cause.FORCE_DRIFT, BenchFaults(leak_rate=3.0))
+    return _row("force goes away slowly", Cause.FORCE_DRIFT, [took])
+
+
+def deaf_valve(chain: Chain, profiles: list[Profile]) -> Row:
+    """The valve ignores a release."""
+    took = []
+    for profile in profiles:
+        made = holding(chain, profile)
+        made.rig.plant.faults = BenchFaults(valve_stuck=True)
+        made.submit(None)
+        took.append(appeared(made, Cause.VALVE_NOT_FOLLOWING, PATIENCE)[0])
+    return _row("valve deaf to a release", Cause.VALVE_NOT_FOLLOWING, took)
+
+
+def blocked(chain: Chain, profiles: list[Profile]) -> Row:
+    """Something is jammed in the linkage when a grasp begins."""
+    took, wrong = [], set[str]()
+    for profile in profiles:
+        made = stage(chain, 1)
+        made.rig.plant.faults = BenchFaults(jaws_blocked=True)
+        made.submit(ordered(profile, Mode.FORCE))
+        pressing(made, POLICIES[Cause.JAW_BLOCKED].limit or 0.0, PATIENCE)
+        took.append(appeared(made, Cause.JAW_BLOCKED, PATIENCE)[0])
+        made.until(lambda: made.state.machine is Machine.FAULT)  # noqa: B023
+        made.run(0.5)
+        if made.rig.plant.pressure > 5e3:
+            wrong.add("not let down")
+    return _row("jaws blocked", Cause.JAW_BLOCKED, took, tuple(wrong))
+
+
+def restarted(chain: Chain, profiles: list[Profile]) -> Row:
+    """The output module is back at its power-on value, and must not be driven."""
+    took, wrong = [], set[str]()
+    for profile in profiles:
+        made = holding(chain, profile)
+        made.writes.clear()
+        made.rig.write_current(0.0)
+        took.append(appeared(made, Cause.MODULE_RESTARTED, PATIENCE)[0])
+        made.run(3.0)
+        if made.writes or made.state.machine is not Machine.FAULT:
+            wrong.add("driven again")
+    return _row("output module restarted", Cause.MODULE_RESTARTED, took, tuple(wrong))
+
+
+def other_sizes(chain: Chain, profiles: list[Profile]) -> Row:
+    """Objects that are not as their profile says: an outcome, and no fault."""
+    found = []
+    for profile in profiles:
+        for differs, outcome in (
+            (-OTHER_SIZE, Outcome.TOO_SMALL),
+            (OTHER_SIZE, Outcome.TOO_LARGE),
+        ):
+            made = stage(chain, 1)
+            size = profile.diameter + differs
+            made.rig.plant.place(replace(real(profile), diameter=size))
+            done = made.complete(ordered(profile, Mode.FORCE))
+            good = done.result is not None and done.result.outcome is outcome
+            calm = made.state.machine is Machine.READY and not faults(made)
+            kept = made.state.grip is Grip.HOLDING
+            found.append(outcome if good and calm and kept else f"{done.result}")
+    allowed = (Outcome.TOO_SMALL, Outcome.TOO_LARGE)
+    return counted("another size than the profile's, held lightly", found, allowed)
 
 
 def _held(chain: Chain, profiles: Mapping[str, Profile]) -> Iterator[Stage]:
@@ -61,7 +161,13 @@ def _taken(made: Stage) -> float:
     return appeared(made, Cause.PART_LOST, PATIENCE)[0]
 
 
-def _row(name: str, cause: Cause, took: list[float]) -> Row:
+def _row(
+    name: str, cause: Cause, took: list[float], wrong: tuple[str, ...] = ()
+) -> Row:
     return Row(
-        fault=name, noticed=cause.value, took=tuple(took), limit=DETECTION[cause]
+        fault=name,
+        noticed=cause.value,
+        took=tuple(took),
+        limit=DETECTION[cause],
+        wrong=wrong,
     )

@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import AsyncExitStack, asynccontextmanager
 from itertools import count
 from random import Random
 
@@ -18,10 +18,12 @@ from gripperd.control.loop import Loop
 from gripperd.control.states import Machine
 from gripperd.drivers.analog import AnalogRig
 from gripperd.drivers.bus import TcpAddress, open_bus
+from tests.control.outage import running
 from tests.drivers.peer import Behaviour, Line, Peer, listening
 from tests.faults.row import Row
+from tests.interop.programs import free_port
 
-TRIES = 10
+TRIES = 5
 OFFLINE_WITHIN, BACK_WITHIN = 0.3, 2.0
 """[s]"""
 PATIENCE = 20.0
@@ -79,34 +81,39 @@ MISBEHAVIOURS: dict[str, Misbehaviour] = {
 
 @asynccontextmanager
 async def _controlled(gripper: GripperSettings) -> AsyncIterator[tuple[Peer, Loop]]:
+    async with (
+        listening(_honest(_bench(gripper))) as peer,
+        _looping(gripper, peer.port) as loop,
+    ):
+        yield peer, loop
+
+
+def _bench(gripper: GripperSettings) -> BenchServer:
     assert gripper.input is not None
     modules = Modules(
         Rig(gripper.chain, Random(1)),
         (gripper.output.module, gripper.output.unit),
         (gripper.input.module, gripper.input.unit),
     )
-    bench = BenchServer(modules, asyncio.get_running_loop().time)
+    return BenchServer(modules, asyncio.get_running_loop().time)
+
+
+@asynccontextmanager
+async def _looping(gripper: GripperSettings, port: int) -> AsyncIterator[Loop]:
     ids = count()
-    async with listening(_honest(bench)) as peer:
-        address = TcpAddress(host="127.0.0.1", port=peer.port)
-        async with open_bus(address) as bus:
-            loop = Loop(
-                Gripper(
-                    "g0",
-                    gripper.chain,
-                    auto_enable=True,
-                    identify=lambda: f"{next(ids)}",
-                ),
-                AnalogRig(bus, gripper.output, gripper.input),
-                period=1 / gripper.rate,
-            )
-            running = asyncio.create_task(loop.run())
-            try:
-                yield peer, loop
-            finally:
-                running.cancel()
-                with suppress(asyncio.CancelledError):
-                    await running
+    async with open_bus(TcpAddress(host="127.0.0.1", port=port)) as bus:
+        loop = Loop(
+            Gripper(
+                "g0",
+                gripper.chain,
+                auto_enable=True,
+                identify=lambda: f"{next(ids)}",
+            ),
+            AnalogRig(bus, gripper.output, gripper.input),
+            period=1 / gripper.rate,
+        )
+        async with running(loop):
+            yield loop
 
 
 def _honest(bench: BenchServer) -> Behaviour:
@@ -164,11 +171,39 @@ async def _measured(
     return offline, back
 
 
+async def _refused(gripper: GripperSettings) -> tuple[list[float], list[float]]:
+    """The same for a port that nobody listens on, and then somebody does again."""
+    offline, back = [], []
+    behave, port = _honest(_bench(gripper)), free_port()
+    async with AsyncExitStack() as stack:
+        peer = await stack.enter_async_context(AsyncExitStack())
+        await peer.enter_async_context(listening(behave, port))
+        loop = await stack.enter_async_context(_looping(gripper, port))
+        for _ in range(TRIES):
+            await _since(0.0, lambda: loop.gripper.machine is Machine.READY)
+            start = time.monotonic()
+            await peer.aclose()
+            offline.append(
+                await _since(start, lambda: loop.gripper.machine is Machine.OFFLINE)
+            )
+            await asyncio.sleep(0.3)
+            start = time.monotonic()
+            await peer.enter_async_context(listening(behave, port))
+            back.append(
+                await _since(start, lambda: loop.gripper.machine is Machine.READY)
+            )
+    return offline, back
+
+
 async def _rows() -> list[Row]:
     (gripper,) = load_settings(shipped("gripperd.yaml"), {}).grippers.values()
+    measured = {
+        name: await _measured(gripper, misbehave)
+        for name, misbehave in MISBEHAVIOURS.items()
+    }
+    measured["port refused"] = await _refused(gripper)
     found = []
-    for name, misbehave in MISBEHAVIOURS.items():
-        offline, back = await _measured(gripper, misbehave)
+    for name, (offline, back) in measured.items():
         found += [
             Row(
                 fault=name,

@@ -1,5 +1,8 @@
 import asyncio
 import sqlite3
+from contextlib import closing
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -7,7 +10,8 @@ import pytest
 from gripperd.errors import Refused
 from gripperd.service.archive import REST, Archive
 from gripperd.service.event_documents import kept_event
-from gripperd.store.history import CommandRecord, EventQuery
+from gripperd.store.history import CommandRecord, EventQuery, History
+from tests.store.history.test_database import largest_file
 
 pytestmark = pytest.mark.anyio
 
@@ -38,6 +42,26 @@ async def test_trouble_is_told_while_it_lasts_and_then_no_more(tmp_path: Path) -
     await asyncio.sleep(REST)
     assert await kept(archive) is None
     assert not archive.trouble
+    await archive.close()
+
+
+async def test_a_full_disk_that_can_be_read_is_not_called_sound(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    archive = Archive(path, now=lambda: 1e9)
+    for number in range(20):
+        record = replace(RECORD, id=f"c{number}", key=f"k{number}")
+        await archive.do(partial(History.put, kept=[record]))
+    with closing(sqlite3.connect(path)) as other:
+        # While somebody has it open, its log stays as long as it is.
+        other.execute("SELECT count(*) FROM commands").fetchone()
+        with largest_file(path.with_name("history.db-wal").stat().st_size):
+            with pytest.raises(Refused):
+                await archive.do(lambda history: history.forget("c1"))
+            await asyncio.sleep(REST)
+            assert await kept(archive) is not None
+            assert archive.trouble
+        assert await kept(archive) is not None
+        assert not archive.trouble
     await archive.close()
 
 

@@ -2,11 +2,13 @@
 
 import contextlib
 import socket
+import threading
 from functools import partial
 from urllib.parse import urlsplit
 
 import httpx
 from starlette.responses import PlainTextResponse
+from starlette.types import Receive, Scope, Send
 
 from gripperd.service.server import Limits, serve
 
@@ -76,6 +78,27 @@ def test_the_newest_connection_takes_the_place_of_the_one_that_waits_longest() -
         assert hung_up(clients[1])
         assert open_still(clients[0])
         assert open_still(clients[2])
+
+
+def test_who_never_reads_is_hung_up_on() -> None:
+    gone = threading.Event()
+
+    async def talkative(scope: Scope, receive: Receive, send: Send) -> None:
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        # Far more than fits between the two.
+        body = b"." * (1 << 24)
+        await send({"type": "http.response.body", "body": body, "more_body": True})
+        while (await receive())["type"] != "http.disconnect":
+            pass
+        gone.set()
+
+    limits = Limits(stuck=0.2)
+    with (
+        running(lambda report: serve(talkative, "127.0.0.1", 0, report, limits)) as url,
+        connected(url) as client,
+    ):
+        client.sendall(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+        assert gone.wait(PATIENCE)
 
 
 def test_hundreds_of_mute_connections_keep_nobody_out() -> None:

@@ -1,6 +1,7 @@
 """Following control over a real socket, through gaps, restarts and a failing disk."""
 
 import asyncio
+import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
@@ -23,7 +24,7 @@ from gripperd.service.archive import Archive
 from gripperd.service.broadcast import Broadcast
 from gripperd.service.command_documents import command_document
 from gripperd.service.event_documents import command_record, kept_event
-from gripperd.service.follower import UNDERWAY, Follower
+from gripperd.service.follower import Follower
 from gripperd.store.history import EventQuery
 
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
@@ -84,15 +85,18 @@ class Following:
         return [kept_event(record).text for record in records]
 
 
+def soon() -> Instant:
+    """A clock that makes ten seconds of a tenth, and was set back a year ago."""
+    return Instant(100 * time.monotonic(), 1e9 - 365 * 24 * 3600)
+
+
 @pytest.fixture
 async def following(tmp_path: Path) -> AsyncIterator[Following]:
     """Nobody answers yet, and nobody asks."""
     archive = Archive(tmp_path / "state" / "history.db")
     client = Client(tmp_path / "control.sock", "control")
     broadcast, told, underway = Broadcast(), list[str](), set[str]()
-    follower = Follower(
-        "g0", client, archive, broadcast, underway, now=lambda: 1e9 + 2 * UNDERWAY
-    )
+    follower = Follower("g0", client, archive, broadcast, underway, now=soon)
 
     async def listen() -> None:
         with broadcast.reader() as reader:

@@ -116,7 +116,7 @@ DETECTION: Mapping[Cause, float] = MappingProxyType(
         Cause.LEAK: 0.5,
         Cause.BURST: 0.25,
         Cause.VALVE_NOT_FOLLOWING: 1.0,
-        Cause.JAW_BLOCKED: 1.5,
+        Cause.JAW_BLOCKED: 0.5,
         Cause.SENSOR_FAILED: 0.6,
         Cause.OUTPUT_CHANGED: 0.05,
         Cause.MODULE_RESTARTED: 0.05,
@@ -126,4 +126,4 @@ DETECTION: Mapping[Cause, float] = MappingProxyType(
 )
 """Promise at 100 Hz and with the policies above: longest time from a change that is
 twice as large as the limit to the notice; for a valve, from the current it does not
-follow; for a blocked jaw, from the beginning of the motion. [s]"""
+follow; for a blocked jaw, from the pressure that ought to press with the limit. [s]"""

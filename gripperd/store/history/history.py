@@ -7,7 +7,15 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TypeAlias, TypeVar
 
-from sqlalchemy import Connection, Select, delete, func, select
+from sqlalchemy import (
+    ColumnElement,
+    Connection,
+    Select,
+    delete,
+    func,
+    literal_column,
+    select,
+)
 from sqlalchemy.dialects.sqlite import insert
 
 from gripperd.store.history.database import SetAside, open_database, telling
@@ -16,6 +24,8 @@ from gripperd.store.history.tables import commands, events
 
 Wanted: TypeAlias = Select[*tuple[object, ...]]
 T = TypeVar("T", CommandRecord, EventRecord)
+KEPT: ColumnElement[int] = literal_column("rowid")
+"""SQLite counts rows by itself. A clock can be set back; this never is."""
 
 
 class History:
@@ -63,6 +73,11 @@ class History:
             numbered = [_put_event(connection, record) for record in told]
         return [record for record in numbered if record is not None]
 
+    def prove(self) -> None:
+        """Write something that means nothing: the disk takes what is written."""
+        with self._writing() as connection:
+            connection.exec_driver_sql("PRAGMA user_version = 1")
+
     def forget(self, command: str) -> None:
         """Drop a command that was refused: its key is free again."""
         with self._writing() as connection:
@@ -85,18 +100,14 @@ class History:
         return self._one(select(commands).where(wanted))
 
     def newest(self, gripper: str, count: int) -> Sequence[CommandRecord]:
-        """The last commands, newest first."""
+        """The last commands in the order in which they were kept, newest first."""
         wanted = select(commands).where(commands.c.gripper == gripper)
-        return self._commands(
-            wanted.order_by(commands.c.created_at.desc()).limit(count)
-        )
+        return self._commands(wanted.order_by(KEPT.desc()).limit(count))
 
     def unfinished(self, gripper: str) -> Sequence[CommandRecord]:
         """Commands whose end is not known, oldest first."""
         wanted = (commands.c.gripper == gripper) & commands.c.final.is_(False)
-        return self._commands(
-            select(commands).where(wanted).order_by(commands.c.created_at)
-        )
+        return self._commands(select(commands).where(wanted).order_by(KEPT))
 
     def events(self, query: EventQuery) -> Sequence[EventRecord]:
         """Events; the newest first, unless those after a number are asked for."""

@@ -9,14 +9,14 @@ import pytest
 from gripperd.bench.faults import BenchFaults
 from gripperd.bench.sensors import Channel
 from gripperd.control.command import Status
-from gripperd.control.monitors.policy import DETECTION, Cause
+from gripperd.control.monitors.policy import DETECTION, POLICIES, Cause
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Grip, Machine
 from gripperd.control.task import Adjust
 from gripperd.model import Chain
 from tests.control.stage import Stage, ordered, real
 
-from .watched import appeared, causes, faults, holding, noticed, stage
+from .watched import appeared, causes, faults, holding, noticed, pressing, stage
 
 Profiles = Mapping[str, Profile]
 OBJECTS = ("apple", "peach", "raw_egg", "grape")
@@ -166,12 +166,17 @@ def test_a_valve_that_ignores_a_grasp_is_noticed(
     assert made.failure(grasp).code == "valve_not_following"
 
 
+@pytest.mark.parametrize("approach", [8e-3, 3e-3])
 def test_blocked_jaws_are_noticed_and_let_down(
-    chain: Chain, profiles: Profiles
+    chain: Chain, profiles: Profiles, approach: float
 ) -> None:
     made = stage(chain, 1)
     made.rig.plant.faults = BenchFaults(jaws_blocked=True)
-    made.submit(ordered(profiles["apple"], Mode.FORCE))
+    apple = replace(profiles["apple"], approach=approach)
+    made.submit(ordered(apple, Mode.FORCE))
+    limit = POLICIES[Cause.JAW_BLOCKED].limit
+    assert limit is not None
+    pressing(made, limit, 10.0)
     _, fault = appeared(made, Cause.JAW_BLOCKED, DETECTION[Cause.JAW_BLOCKED])
     assert "the jaws do not close: they stand at 85." in fault.message
     made.until(lambda: made.state.machine is Machine.FAULT)

@@ -70,3 +70,12 @@ def appeared(made: Stage, cause: Cause, within: float) -> tuple[float, Fault]:
     ]
     made.until(lambda: bool(found()), within)
     return made.now - start, found()[0]
+
+
+def pressing(made: Stage, force: float, within: float) -> None:
+    """Wait until the jaws ought to press with a force, by the pressure there is. [N]"""
+    plant = made.rig.plant
+    ought: Callable[[], float] = lambda: float(  # noqa: E731
+        made.chain.grip_at(plant.pressure, plant.opening)
+    )
+    made.until(lambda: ought() > force, within)

@@ -151,6 +151,19 @@ def test_a_full_disk_refuses_and_loses_nothing(history: History, path: Path) -> 
     assert history.command("c204") == command(204)
 
 
+def test_a_full_disk_can_be_read_and_is_not_taken_for_a_sound_one(
+    history: History, path: Path
+) -> None:
+    fill(history, 3)
+    size = path.with_name("history.db-wal").stat().st_size
+    with largest_file(size):
+        assert history.command("c1") == command(1)
+        with pytest.raises(Refused, match="history cannot be kept"):
+            history.prove()
+    history.prove()
+    assert [record.id for record in history.newest("g0", 9)] == ["c2", "c1", "c0"]
+
+
 def test_a_file_that_another_program_locks_is_told(
     path: Path, history: History
 ) -> None:

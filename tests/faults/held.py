@@ -1,0 +1,108 @@
+"""The whole daemon as a user runs it, holding an egg, and what may not change."""
+
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from tests.daemon import Daemon, children, running_daemon, until
+
+PATIENCE = 60.0
+"""Longest wait for anything. [s]"""
+SETTLED = 0.02
+"""Share by which the force may differ. [-]"""
+MOVING = {"executing", "stopping"}
+COMMANDS = "/grippers/g0/commands"
+
+
+@dataclass(frozen=True)
+class Held:
+    """A daemon that holds an egg."""
+
+    daemon: Daemon
+    http: httpx.Client
+    """Of ``/v1``."""
+    folder: Path
+    force: float
+    """Of each jaw, truly. [N]"""
+
+    def answer(self, path: str) -> dict[str, Any]:
+        """A document; nothing while there is none."""
+        with suppress(httpx.TransportError):
+            found = self.http.get(path)
+            document: dict[str, Any] = found.json() if found.is_success else {}
+            return document
+        return {}
+
+    def ready(self) -> bool:
+        """Whether all of it answers."""
+        return bool(self.answer("/health/ready"))
+
+    def process(self, name: str) -> int:
+        """Id of one of its processes, 0 while there is none."""
+        return children(self.daemon.process).get(name, 0)
+
+    def since(self, start: float, happened: Callable[[], bool]) -> float:
+        """Time from then until something has happened. [s]."""
+        until(happened, PATIENCE)
+        return time.monotonic() - start
+
+    def wrong(self) -> set[str]:
+        """What is not as it was when the egg had been grasped, once nothing moves."""
+        until(lambda: self.answer("/grippers/g0").get("machine") not in MOVING)
+        state, truth = self.http.get("/grippers/g0").json(), self.http.get("/bench")
+        force = truth.json()["force_N"]
+        found = set[str]()
+        if (state["machine"], state["grip"]) != ("ready", "holding"):
+            found.add(f"{state['machine']}, {state['grip']}")
+        if abs(force - self.force) > SETTLED * self.force:
+            found.add(f"{self.force:.2f} N became {force:.2f} N")
+        if truth.json()["object"]["cracked"]:
+            found.add("cracked")
+        return found
+
+    def give(self, key: str | None = None, **command: object) -> httpx.Response:
+        """Give a command and wait for its end."""
+        headers = {"Prefer": "wait=30"} | ({"Idempotency-Key": key} if key else {})
+        return self.http.post(COMMANDS, json=command, headers=headers)
+
+    def over(self, given: httpx.Response) -> dict[str, Any]:
+        """A command once it has its end."""
+        place = f"{COMMANDS}/{given.json()['id']}"
+        until(lambda: self.answer(place).get("completed_at") is not None, PATIENCE)
+        return self.answer(place)
+
+    def told(self, **query: str) -> list[dict[str, Any]]:
+        """Events of the history, newest first."""
+        found = self.http.get("/history", params=query)
+        events: list[dict[str, Any]] = found.raise_for_status().json()["events"]
+        return events
+
+
+@contextmanager
+def held_egg(
+    folder: Path | None = None, within: Sequence[str] = (), **environment: str
+) -> Iterator[Held]:
+    """Run a daemon while inside, and let it hold an egg."""
+    with tempfile.TemporaryDirectory() as name:
+        place = folder or Path(name)
+        with (
+            running_daemon(place, within, **environment) as daemon,
+            httpx.Client(base_url=f"{daemon.url}/v1", timeout=PATIENCE) as http,
+        ):
+            yield grasped(daemon, http, place)
+
+
+def grasped(daemon: Daemon, http: httpx.Client, folder: Path) -> Held:
+    """Grasp an egg."""
+    http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()
+    done = Held(daemon, http, folder, 0.0).give(type="grasp", profile="raw_egg")
+    assert done.json()["status"] == "succeeded", done.text
+    # The force is brought up to its target for a moment after the outcome is known.
+    time.sleep(1.0)
+    return Held(daemon, http, folder, http.get("/bench").json()["force_N"])
