@@ -53,7 +53,7 @@ class Gap:
     @property
     def confirms(self) -> bool:
         """Whether what took no part bears the effects out."""
-        if self.after > WORSE * self.recalibrated:
+        if self.after > WORSE * max(self.recalibrated, self.noise_floor):
             return False
         return self.after <= REACHED * self.noise_floor or self.closed >= LEAST_CLOSED
 

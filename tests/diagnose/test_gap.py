@@ -51,6 +51,7 @@ def test_the_share_closed_is_of_the_mean_square_above_the_noise(
         pytest.param(_gap(9.0, 3.0), True, id="down to the noise"),
         pytest.param(_gap(3.2, 3.2), True, id="there was nothing to close"),
         pytest.param(_gap(3.2, 3.3), False, id="worse than constants alone"),
+        pytest.param(_gap(2.8, 3.0), True, id="worse, but within the noise"),
         pytest.param(_gap(9.0, 6.0), True, id="five eighths of the mean square"),
         pytest.param(_gap(9.0, 8.0), False, id="a quarter of the mean square"),
     ],
