@@ -19,8 +19,6 @@ VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
 EXPLAINED = 0.72
 """Share of the structure that a right explanation takes away. [-]"""
-CROWD = 2
-"""More effects at once, found down to the noise, imitate one that no library holds."""
 
 
 class Verdict(StrEnum):
@@ -66,17 +64,13 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     remains = bool(_remaining(after))
     if not contest.best.candidates:
         verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
-    elif (remains and share < EXPLAINED) or _crowded(found, contest):
+    elif remains and share < EXPLAINED:
         verdict = Verdict.UNEXPLAINED
     elif any(contest.equivalents):
         verdict = Verdict.AMBIGUOUS
     else:
         verdict = Verdict.NAMED
     return Conclusion(verdict, after, share)
-
-
-def _crowded(found: Found, contest: Contest) -> bool:
-    return len(contest.best.candidates) > CROWD and not found.problem.is_hot
 
 
 def unusable() -> Conclusion:

@@ -29,6 +29,7 @@ from gripperd.diagnose.extrapolation import (
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
 from gripperd.diagnose.holdout import Split, split
+from gripperd.diagnose.jump import jump
 from gripperd.diagnose.named import Named, named
 from gripperd.diagnose.next_experiment import Proposal, proposal
 from gripperd.diagnose.overstepped import with_overstepped
@@ -178,6 +179,7 @@ def _told(
     # The noise of a table is not known, so what is left cannot be held against it.
     judge = found.problem if is_table(train.courses) else train
     conclusion = conclude(judge, found, best)
+    slip = jump(found, best)
     start, base, nearest = (
         with_usual_sign(train, point)
         for point in (
@@ -191,7 +193,7 @@ def _told(
     judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     entries = named(found, best, judged)
     main = _main(best, judged)
-    if main is not None and not judged[main].confirms:
+    if slip or (main is not None and not judged[main].confirms(len(entries))):
         conclusion = not_confirmed(conclusion)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
@@ -209,7 +211,7 @@ def _told(
         held_out=swept(parts, inside),
         extrapolation=extrapolation(parts, outside, points, seed),
         proposal=_next(found.problem, best),
-        signature=signature(train, best, conclusion) if unexplained else (),
+        signature=signature(train, best, conclusion, slip) if unexplained else (),
         corrections=tuple(offers(parts, left, base, nearest)) if unexplained else (),
         untested=untested | dict.fromkeys(found.faint, "leaves no trace here"),
         seed=seed,

@@ -26,6 +26,9 @@ REACHED = 1.3
 """Gap over the noise floor up to which nothing more can be asked. [-]"""
 LEAST_CLOSED = 0.45
 """Share of a gap well above the noise that effects close at least. [-]"""
+CROWD = 2
+"""More effects at once are held to the two limits that follow."""
+CLOSELY, MOST_CLOSED = 1.15, 0.85
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +53,16 @@ class Gap:
         left = self.recalibrated**2 - floor
         return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
 
-    @property
-    def confirms(self) -> bool:
-        """Whether what took no part bears the effects out."""
+    def confirms(self, effects: int) -> bool:
+        """Whether what took no part bears so many effects out.
+
+        A crowd of effects can imitate one that no library holds, but not closely.
+        """
         if self.after > WORSE * max(self.recalibrated, self.noise_floor):
             return False
-        return self.after <= REACHED * self.noise_floor or self.closed >= LEAST_CLOSED
+        crowd = effects > CROWD
+        reached = self.after <= (CLOSELY if crowd else REACHED) * self.noise_floor
+        return reached or self.closed >= (MOST_CLOSED if crowd else LEAST_CLOSED)
 
 
 def gaps(

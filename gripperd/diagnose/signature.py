@@ -1,6 +1,7 @@
 """What nobody could name, in words: what it depends on and what it does not."""
 
 from gripperd.diagnose.conclude import Conclusion
+from gripperd.diagnose.jump import Jump
 from gripperd.diagnose.key import plain
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rivalry import Contest
@@ -14,13 +15,17 @@ LINE = 0.5
 
 
 def signature(
-    problem: Problem, best: Contest, conclusion: Conclusion
+    problem: Problem, best: Contest, conclusion: Conclusion, slip: Jump | None = None
 ) -> tuple[str, ...]:
     """Describe what is left, most telling first."""
     words = [f"share of the gap that known effects explain: {conclusion.share:.0%}"]
     if best.best.names:
         nearest = ", ".join(map(plain, best.best.names))
         words.append(f"nearest known effects: {nearest}")
+    if slip:
+        words.append(
+            f"force: jumps by {slip.size:+.1f} N at {slip.at:.0f} s, and stays"
+        )
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)

@@ -52,19 +52,3 @@ def test_a_name_is_kept_from_most_of_the_structure(
     concluded = _judged(told, replace(told.contest, best=poor, rivals=((),)))
     assert concluded.verdict is verdict
     assert concluded.signals == (Signal.FORCE,)
-
-
-@pytest.mark.parametrize(
-    ("effects", "verdict"), [(2, Verdict.NAMED), (3, Verdict.UNEXPLAINED)]
-)
-def test_a_crowd_of_effects_imitates_one_that_no_library_holds(
-    told: Diagnosis, effects: int, verdict: Verdict
-) -> None:
-    best = told.contest.best
-    crowd = replace(best, candidates=effects * best.candidates)
-    contest = replace(told.contest, best=crowd, rivals=effects * ((),))
-    assert _judged(told, contest).verdict is verdict
-    # Far above the noise several effects are usual: no formula is that of nature.
-    hot = replace(told.found.problem, temperatures={Signal.FORCE: 40.0})
-    found = replace(told.found, problem=hot)
-    assert conclude(told.split.train, found, contest).verdict is Verdict.NAMED

@@ -59,7 +59,8 @@ def test_the_share_closed_is_of_the_mean_square_above_the_noise(
 def test_effects_are_confirmed_by_what_they_close_of_a_gap(
     gap: Gap, *, confirms: bool
 ) -> None:
-    assert gap.confirms is confirms
+    assert gap.confirms(1) is confirms
+    assert gap.confirms(2) is confirms
 
 
 def test_the_gap_is_the_root_mean_square_of_what_was_left_out(
@@ -129,3 +130,15 @@ def test_residuals_of_a_signal_come_in_the_order_of_time(blank: Problem) -> None
     )
     assert (np.diff(times) > 0).all()
     assert by_signal(blank, start)[Signal.FORCE].size == times.size
+
+
+@pytest.mark.parametrize(
+    ("after", "confirms"), [(3.3, True), (4.2, True), (5.0, False)]
+)
+def test_a_crowd_of_effects_must_close_a_gap_closely(
+    after: float, *, confirms: bool
+) -> None:
+    # 85 % of 81 - 9 above the noise leaves a mean square of 19.8, that is 4.45 squared.
+    gap = _gap(9.0, after)
+    assert gap.confirms(3) is confirms
+    assert gap.confirms(2)

@@ -1,0 +1,57 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.jump import Jump, jump
+from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.rivalry import contest
+from gripperd.diagnose.search import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from tests.diagnose.small import MODEL, Hidden, Moment, nothing, pinned, recording
+
+OPEN = ("muscle.diameter", "zero.force")
+LISTED = (Candidate("force_sensor_drift", ForceSensorDrift(rate=0.05)),)
+SLIPPED_AT = 300.0
+
+
+def _slipped(moment: Moment) -> np.ndarray:
+    return np.where(moment.time > SLIPPED_AT, -40.0, 0.0)
+
+
+def _drifted(moment: Moment) -> np.ndarray:
+    return -0.08 * moment.time
+
+
+def _seen(hidden: Hidden) -> tuple[Problem, Jump | None]:
+    problem = pinned(problem_of(recording(hidden), MODEL, {}), *OPEN)
+    found = search(problem, LISTED, np.random.default_rng(0))
+    return problem, jump(found, contest(found, LISTED))
+
+
+def test_a_mount_that_slipped_once_is_no_drift() -> None:
+    problem, seen = _seen(_slipped)
+    assert seen is not None
+    assert seen.size == pytest.approx(-40.0, abs=4.0)
+    before, after = (
+        [bool((course.time > t).all()) for course in problem.courses]
+        for t in (SLIPPED_AT, seen.at)
+    )
+    assert before == after
+
+
+def test_a_drift_is_no_jump() -> None:
+    assert _seen(_drifted)[1] is None
+
+
+def test_where_nothing_is_named_nothing_jumps() -> None:
+    assert _seen(nothing)[1] is None
+
+
+def test_the_truth_behind_a_jump_is_the_reading_without_it() -> None:
+    problem, seen = _seen(_slipped)
+    assert seen is not None
+    track = problem.tracks(problem.model)[0]
+    pull = np.full(track.time.size, 100.0)
+    read = seen.along(pull, track, seen.rest())
+    assert seen.truth(read, track) == pytest.approx(pull)
