@@ -48,6 +48,14 @@ class Candidate:
         return self.effect.stage.value if self.effect else "-"
 
     @property
+    def kind(self) -> tuple[str, ...]:
+        """Its name, and the words it chose, such as the channel that is late."""
+        if self.effect is None:
+            return (self.name,)
+        chosen = [name for name, one in parameters(self.effect).items() if one.choices]
+        return (self.name, *(str(getattr(self.effect, name)) for name in chosen))
+
+    @property
     def doubles(self) -> tuple[str, ...]:
         """Names of effects known to look alike."""
         return self.effect.confused_with if self.effect else ()

@@ -170,7 +170,7 @@ def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:
     scale = problem.full_scale.get(effect.signal)
     if effect.stage is Stage.SENSOR and name == "error":
         return max(known.low, -SPOILT), min(known.high, SPOILT)
-    if effect.signal is Signal.CONTRACTION and known.is_amplitude:
+    if effect.signal is Signal.CONTRACTION and known.unit is None:
         scale = STROKE
     elif effect.stage is not Stage.SENSOR or known.unit not in BIASES or scale is None:
         return known.low, known.high

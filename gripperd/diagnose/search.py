@@ -123,10 +123,10 @@ def _by_name(singles: dict[Member, float]) -> dict[str, float]:
 
 
 def _leaders(singles: dict[Member, float]) -> list[Member]:
-    """Best form of each name, best first."""
-    leaders: dict[str, Member] = {}
+    """Best form of each kind, best first."""
+    leaders: dict[tuple[str, ...], Member] = {}
     for member in sorted(singles, key=lambda one: -singles[one]):
-        leaders.setdefault(member.candidate.name, member)
+        leaders.setdefault(member.candidate.kind, member)
     return list(leaders.values())
 
 

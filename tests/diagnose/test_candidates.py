@@ -12,9 +12,10 @@ from gripperd.diagnose.candidates import (
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
+from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.creep import Creep
 from gripperd.effects.threshold_pressure import ThresholdPressure
-from gripperd.model.effect import Stage
+from gripperd.model.effect import Signal, Stage
 from gripperd.model.parameter import parameters
 from tests.diagnose.small import MODEL, recording, without
 
@@ -134,3 +135,13 @@ def test_a_constant_that_is_wrong_as_an_effect_shows_is_left_to_the_effect(
     ):
         listed, _ = candidates(library, blank, MEASURED)
         assert _names(listed) & {low, high} == names
+
+
+def test_channels_that_are_late_are_candidates_of_several_kinds() -> None:
+    kinds = {
+        Candidate("channel_delay", ChannelDelay(delay=0.1, channel=channel)).kind
+        for channel in (Signal.FORCE, Signal.CONTRACTION)
+    }
+    assert kinds == {("channel_delay", "force"), ("channel_delay", "contraction")}
+    creeps = {Candidate("creep", form).kind for form in forms(Creep)}
+    assert creeps == {("creep",)}

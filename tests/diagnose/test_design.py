@@ -2,14 +2,16 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.candidates import WRONG, Candidate, candidates, forms
-from gripperd.diagnose.design import Design, Member, design, problem_prior
+from gripperd.diagnose.design import Design, Member, design, limits, problem_prior
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.response import responses
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
+from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.length_datum import LengthDatum
 from gripperd.effects.viscous_friction import ViscousFriction
 from gripperd.model.effect import Signal
 from tests.diagnose.small import MODEL, covariance, recording, rubbing
@@ -142,3 +144,14 @@ def test_a_fit_of_what_is_hidden_beats_one_of_what_is_not() -> None:
     evidence = {one.candidate.name: found.fit(one).evidence for one in found.members}
     assert evidence["coulomb_friction"] > evidence["force_sensor_bias"] + 20.0
     assert evidence["coulomb_friction"] > found.fit().evidence + 20.0
+
+
+def test_a_wrong_zero_of_contraction_is_bounded_by_the_stroke(blank: Problem) -> None:
+    # 6.5 % of a stroke of 25 %.
+    low, high = limits(blank, LengthDatum(shift=0.003), "shift")
+    assert (low, high) == pytest.approx((-0.01625, 0.01625))
+
+
+def test_how_late_the_contraction_is_read_is_no_length(blank: Problem) -> None:
+    late = ChannelDelay(delay=0.1, channel=Signal.CONTRACTION)
+    assert limits(blank, late, "delay") == (0.0, 1.0)
