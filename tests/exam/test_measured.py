@@ -8,6 +8,7 @@ for the map of the DMSP-20; bore with saturating rubber for the 10 mm muscle.
 import os
 from dataclasses import replace
 from functools import cache
+from math import radians, sin, tan
 from pathlib import Path
 
 import pytest
@@ -80,13 +81,15 @@ def test_a_festo_muscle_lacks_a_threshold_and_then_another_bore(
 
 @pytest.mark.parametrize(
     ("name", "before", "after"),
-    [("festo20_rest225mm", 300.0, 35.0), ("festo20_rest274mm", 175.0, 30.0)],
+    # Without the slack samples at the converter's floor; with them, others say 300 and
+    # 175 N.
+    [("festo20_rest225mm", 390.0, 35.0), ("festo20_rest274mm", 200.0, 30.0)],
 )
 def test_the_gap_of_a_festo_muscle_shrinks_on_sweeps_left_out(
     name: str, before: float, after: float
 ) -> None:
     gap = _diagnosis(name, name).gaps[Signal.FORCE]
-    assert gap.before == pytest.approx(before, rel=0.25)
+    assert gap.before == pytest.approx(before, rel=0.1)
     assert gap.after < after
 
 
@@ -141,12 +144,21 @@ def test_the_bore_of_the_10_mm_muscle_is_that_of_its_braid() -> None:
     found = _diagnosis("pam10_characterization", "pam10")
     entries = {entry.name: entry for entry in found.named}
     assert DIAMETER in entries, _said(found)
-    diameter = entries[DIAMETER].parameters["diameter"]
-    # Two walls of about 1 mm around a bore of 10 mm; another fit gives 11.9 mm.
-    assert diameter.value == pytest.approx(11.9e-3, abs=0.3e-3)
+    diameter = entries[DIAMETER].parameters["diameter"].value
+    # Two walls of about 1 mm around a bore of 10 mm: another fit gives 11.9 mm for a
+    # braid of 25 degrees. At rest eq. (4) knows but D² (3 cot² - 1 / sin²).
+    pull = diameter**2 * (3 / tan(radians(23)) ** 2 - 1 / sin(radians(23)) ** 2)
+    other = 11.9e-3**2 * (3 / tan(radians(25)) ** 2 - 1 / sin(radians(25)) ** 2)
+    assert pull == pytest.approx(other, rel=0.05)
 
 
-def test_steps_show_creep_and_a_slow_valve() -> None:
+def test_steps_show_a_transducer_that_reads_less_than_nothing_at_vent() -> None:
     found = _diagnosis("pam10_steps", "pam10")
     assert found.verdict in SETTLED, _said(found)
-    assert {"creep", "valve_lag"} <= set(_names(found)), _said(found)
+    entries = {entry.name: entry for entry in found.named}
+    bias = entries["pressure_sensor_bias"].parameters["bias"]
+    # Vented, it reads 3.3 to 4.1 kPa under the atmosphere.
+    assert bias.value == pytest.approx(-3.7e3, abs=0.6e3)
+    gap = found.gaps[Signal.FORCE]
+    assert gap.before > 100.0
+    assert gap.after < 4.0
