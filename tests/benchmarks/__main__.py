@@ -10,6 +10,7 @@ from rich.console import Console
 
 from tests.benchmarks import (
     bus,
+    diagnosis,
     faults,
     footprint,
     latency,
@@ -30,6 +31,7 @@ CHAPTERS = {
     "stopping": stopping,
     "punctuality": punctuality,
     "footprint": footprint,
+    "diagnosis": diagnosis,
 }
 
 

@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from gripperd.diagnose.candidates import candidates
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.effects import EFFECTS
 from tests.exam.answer import Entry, Hidden, diagnosed, hidden, posed
 from tests.exam.peers.baseline import baseline
 from tests.exam.peers.classes import families
-from tests.exam.peers.exhibit import Exhibit, Guess, Method
+from tests.exam.peers.exhibit import Exhibit, Guess, Method, shown
 from tests.exam.peers.regressors import (
     forest,
     gaussian_process,
@@ -63,7 +61,7 @@ def contested(question: Question, directory: Path) -> Outcome:
     start = time.perf_counter()
     found = diagnosed(case, question.seed)
     turns = {OURS: Turn(_ours(found), time.perf_counter() - start)}
-    exhibit = _exhibit(found, question.seed)
+    exhibit = shown(found, question.seed)
     for name, method in METHODS.items():
         turns[name] = _turn(method, exhibit)
     gaps = {str(signal): gap for signal, gap in found.gaps.items()}
@@ -85,15 +83,6 @@ def _turn(method: Method, exhibit: Exhibit) -> Turn:
     except Exception:  # noqa: BLE001
         return Turn(None, time.perf_counter() - start, traceback.format_exc(limit=-3))
     return Turn(guess, time.perf_counter() - start)
-
-
-def _exhibit(found: Diagnosis, seed: int) -> Exhibit:
-    parts = found.split
-    columns = {
-        name for run in found.recording.runs for name in run.columns if run.has(name)
-    }
-    listed, _ = candidates(EFFECTS, parts.train, frozenset(columns))
-    return Exhibit(parts.train, parts.test, found.recalibrated, listed, seed)
 
 
 def _ours(found: Diagnosis) -> Guess:

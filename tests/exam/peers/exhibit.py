@@ -6,9 +6,11 @@ from typing import Protocol
 
 import numpy as np
 
-from gripperd.diagnose.candidates import Candidate
+from gripperd.diagnose.candidates import Candidate, candidates
+from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
+from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
 
 
@@ -45,6 +47,16 @@ class Exhibit:
             signal: float(np.sqrt(np.mean(np.concatenate(pieces) ** 2)))
             for signal, pieces in left.items()
         }
+
+
+def shown(found: Diagnosis, seed: int) -> Exhibit:
+    """Show others what our diagnosis was made of."""
+    parts = found.split
+    columns = {
+        name for run in found.recording.runs for name in run.columns if run.has(name)
+    }
+    listed, _ = candidates(EFFECTS, parts.train, frozenset(columns))
+    return Exhibit(parts.train, parts.test, found.recalibrated, listed, seed)
 
 
 @dataclass(frozen=True, slots=True)
