@@ -129,7 +129,7 @@ class Faults:
         present = any(fault.cleared_at is None for fault in self.latched)
         mend = ("mend the cause",) if present else ()
         hints = (*self._unseen, *mend, "POST .../reset", "POST .../enable")
-        message = f"the gripper is in fault: {_listed(self.latched)}"
+        message = f"not possible before a reset: {_listed(self.latched)}"
         raise Refused(message, code="wrong-state", hints=hints)
 
     @property
@@ -145,7 +145,7 @@ class Faults:
         for fault in faults:
             self._faults[fault.id] = replace(fault, reset_at=now.wall)
             del self._away[fault.id]
-        self._tell("reset", now)
+            self._tell(f"{fault.cause} reset", now)
 
     def _follow(self, fault: Fault, now: Instant) -> None:
         """Note whether the cause is gone, or back."""
@@ -194,4 +194,9 @@ class Faults:
 
 
 def _listed(faults: Iterable[Fault]) -> str:
-    return "; ".join(fault.message for fault in faults)
+    return "; ".join(map(_shown, faults))
+
+
+def _shown(fault: Fault) -> str:
+    """What was wrong, and whether it still is."""
+    return fault.message if fault.cleared_at is None else f"{fault.message} (gone)"

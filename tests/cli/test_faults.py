@@ -43,12 +43,14 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
     until(lambda: httpx.get(f"{url}{GRIPPER}").json()["machine"] == "fault")
 
     status = said(daemon, "status").stdout
-    assert status.startswith("g0: fault, holding")
+    assert status.startswith("g0: fault, holding apple\n")
     assert "valve_not_following, latched, since 20" in status
     assert "to do: acknowledge, mend, reset, enable" in status
     listed = json.loads(said(daemon, "faults", "--active", "--json").stdout)["faults"]
     (fault,) = (each for each in listed if each["latched"])
     refuses(daemon, 1, "not acknowledged yet", "reset")
+    refuses(daemon, 1, f"hint: gripperd acknowledge {fault['id'][:8]}\n", "release")
+    refuses(daemon, 1, "hint: gripperd reset\n  hint: gripperd enable\n", "release")
     refuses(daemon, 2, "0 faults begin with 'xyz'; there is", "acknowledge", "xyz")
     seen = said(daemon, "acknowledge", fault["id"][:8], "--by", "Ada")
     assert "acknowledged by Ada" in seen.stdout
@@ -57,6 +59,7 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
 
     httpx.delete(f"{url}/v1/bench/faults").raise_for_status()
     until(lambda: "to do: reset, enable" in said(daemon, "faults", "--active").stdout)
+    assert ", gone since 20" in said(daemon, "status").stdout
     current = httpx.get(f"{url}/v1/bench").json()["current_mA"]
     assert said(daemon, "reset").stdout == "disabled, holding\n"
     assert json.loads(said(daemon, "enable", "--json").stdout)["machine"] == "ready"

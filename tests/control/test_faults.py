@@ -130,5 +130,5 @@ def test_what_happens_is_told_in_the_journal(faults: Faults, journal: Journal) -
         "burst: the muscle burst",
         "burst acknowledged by Ada",
         "burst cleared",
-        "reset",
+        "burst reset",
     ]
