@@ -20,6 +20,8 @@ SHOWN = 8
 """Characters of an id; more are never needed to tell two faults apart."""
 TO_ACKNOWLEDGE = "acknowledge"
 """The step of a way out that is taken here."""
+STEPS = {"command": "give the next command"}
+"""Steps that are no command of that name."""
 
 Fault: TypeAlias = dict[str, Any]
 
@@ -87,7 +89,8 @@ def lines(fault: Fault) -> Iterator[str]:
     begun = f"{fault['id'][:SHOWN]}  {what}, {kind}, {_when(fault)}"
     yield f"{begun}{seen}: {fault['message']}"
     if fault["way_out"]:
-        yield f"          to do: {', '.join(fault['way_out'])}"
+        steps = (STEPS.get(step, step) for step in fault["way_out"])
+        yield f"          to do: {', '.join(steps)}"
 
 
 def _when(fault: Fault) -> str:
