@@ -4,6 +4,7 @@ from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from itertools import islice
+from math import inf
 
 from gripperd.control.fault import Fault
 from gripperd.control.journal import Happening, Journal
@@ -52,6 +53,13 @@ class Faults:
     def latched(self) -> tuple[Fault, ...]:
         """Faults that stop the gripper."""
         return tuple(fault for fault in self.active if fault.latched)
+
+    def adopt(self, latched: Iterable[Fault]) -> None:
+        """Go on with what an earlier life latched and nobody has reset."""
+        for fault in latched:
+            self._faults[fault.id] = fault
+            # What was gone is not back until it is seen.
+            self._away[fault.id] = 0.0 if fault.cleared_at is None else inf
 
     def newest(self, count: int) -> list[Fault]:
         """The last faults, newest first; those that are active are among them."""

@@ -1,13 +1,15 @@
 """The way out of a fault, as a person types it."""
 
 import json
+import os
+import signal
 from collections.abc import Iterator
 from subprocess import CompletedProcess
 
 import httpx
 import pytest
 
-from tests.daemon import Daemon, gripperd, running_daemon, until
+from tests.daemon import Daemon, children, gripperd, running_daemon, until
 
 GRIPPER = "/v1/grippers/g0"
 
@@ -26,6 +28,18 @@ def refuses(daemon: Daemon, status: int, why: str, *arguments: str) -> None:
     refused = said(daemon, *arguments)
     assert refused.returncode == status
     assert why in refused.stderr
+
+
+def outlives_control(daemon: Daemon, fault: dict[str, str]) -> None:
+    """A new life of control does not forget what nobody has seen."""
+    first = children(daemon.process)["control"]
+    os.kill(first, signal.SIGKILL)
+    until(lambda: children(daemon.process).get("control", first) != first)
+    until(lambda: fault["id"][:8] in said(daemon, "status").stdout, 60)
+    assert said(daemon, "status").stdout.startswith("g0: fault, holding")
+    history = f"{daemon.url}/v1/history?kind=adoption"
+    told = f"adopted a latched fault: {fault['cause']}: {fault['message']}"
+    until(lambda: told in httpx.get(history).text)
 
 
 def test_what_is_well_has_nothing_to_tell(daemon: Daemon) -> None:
@@ -49,6 +63,7 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
     listed = json.loads(said(daemon, "faults", "--active", "--json").stdout)["faults"]
     (fault,) = (each for each in listed if each["latched"])
     refuses(daemon, 1, "not acknowledged yet", "reset")
+    outlives_control(daemon, fault)
     refuses(daemon, 1, f"hint: gripperd acknowledge {fault['id'][:8]}\n", "release")
     refuses(daemon, 1, "hint: gripperd reset\n  hint: gripperd enable\n", "release")
     refuses(daemon, 2, "0 faults begin with 'xyz'; there is", "acknowledge", "xyz")
