@@ -113,7 +113,15 @@ def children(process: "subprocess.Popen[str]") -> dict[str, int]:
     listing = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text()
     names = {}
     for pid in listing.split():
-        command = Path(f"/proc/{pid}/cmdline").read_text().split("\0")
-        if "gripperd" in command:  # one that has just died has no command line
+        command = _command_line(int(pid))
+        if "gripperd" in command:
             names[command[command.index("gripperd") + 1]] = int(pid)
     return names
+
+
+def _command_line(process: int) -> list[str]:
+    """Words; none of a process that has just died."""
+    try:
+        return Path(f"/proc/{process}/cmdline").read_text().split("\0")
+    except OSError:
+        return []

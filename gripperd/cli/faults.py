@@ -20,6 +20,8 @@ SHOWN = 8
 """Characters of an id; more are never needed to tell two faults apart."""
 TO_ACKNOWLEDGE = "acknowledge"
 """The step of a way out that is taken here."""
+STEPS = {"command": "give the next command"}
+"""Steps that are no command of that name."""
 
 Fault: TypeAlias = dict[str, Any]
 
@@ -82,15 +84,21 @@ def lines(fault: Fault) -> Iterator[str]:
     """Describe a fault for a person: what and since when, then the way out."""
     kind = "latched" if fault["latched"] else "told"
     what = fault["cause"] + (f" {fault['subject']}" if fault.get("subject") else "")
-    when = f"since {_clock(fault['raised_at'])}"
-    if not fault["active"]:
-        over = fault.get("reset_at") or fault.get("cleared_at")
-        when = f"{_clock(fault['raised_at'])} to {_clock(over)}"
     seen = fault.get("acknowledged_by")
     seen = f", acknowledged by {seen}" if seen else ""
-    yield f"{fault['id'][:SHOWN]}  {what}, {kind}, {when}{seen}: {fault['message']}"
+    begun = f"{fault['id'][:SHOWN]}  {what}, {kind}, {_when(fault)}"
+    yield f"{begun}{seen}: {fault['message']}"
     if fault["way_out"]:
-        yield f"          to do: {', '.join(fault['way_out'])}"
+        steps = (STEPS.get(step, step) for step in fault["way_out"])
+        yield f"          to do: {', '.join(steps)}"
+
+
+def _when(fault: Fault) -> str:
+    """How long it has been so."""
+    since, gone = _clock(fault["raised_at"]), fault.get("cleared_at")
+    if not fault["active"]:
+        return f"{since} to {_clock(fault.get('reset_at') or gone)}"
+    return f"since {since}" + (f", gone since {_clock(gone)}" if gone else "")
 
 
 def _meant(fault: str, known: Sequence[Fault]) -> Sequence[Fault]:

@@ -10,6 +10,8 @@ import socket
 from collections.abc import Mapping
 from pathlib import Path
 
+import structlog
+
 from gripperd.errors import ConfigError
 
 VARIABLE = "NOTIFY_SOCKET"
@@ -17,19 +19,19 @@ REPORT_WITHIN = 5.0
 """How long a report waits for a listener that has no time; a sign of life never does.
 [s]"""
 
+log = structlog.get_logger()
+
 
 def notify(**facts: str | int) -> None:
     """Tell whoever started this process; nobody is told when nobody asked.
+
+    This process goes on when they are gone or do not listen: whether it is to end is
+    for them to say. Signs of life are many, and nothing is logged of those.
 
     Parameters
     ----------
     facts
         Such as ``READY=1`` or ``STATUS="holding"``.
-
-    Raises
-    ------
-    OSError
-        Nobody listens there, or has no time to.
     """
     address = os.environ.get(VARIABLE)
     if not address:
@@ -38,11 +40,17 @@ def notify(**facts: str | int) -> None:
     if address.startswith("@"):
         address = "\0" + address[1:]
     message = "\n".join(f"{name}={value}" for name, value in facts.items())
-    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
-        # A listener that is stalled must not stall who reports to it.
-        sender.settimeout(0.0 if "WATCHDOG" in facts else REPORT_WITHIN)
-        sender.connect(address)
-        sender.sendall(message.encode())
+    sign_of_life = "WATCHDOG" in facts
+    try:
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
+            # A listener that is stalled must not stall who reports to it.
+            sender.settimeout(0.0 if sign_of_life else REPORT_WITHIN)
+            sender.connect(address)
+            sender.sendall(message.encode())
+    except OSError as error:
+        if not sign_of_life:
+            reason = error.strerror or str(error)
+            log.warning("nobody hears the report", told=message, reason=reason)
 
 
 def listen(path: Path) -> socket.socket:

@@ -11,7 +11,16 @@ from gripperd.cli.rest import DEFAULT_URL, Name, Url, ask, where
 from gripperd.errors import InputError
 
 STATE = frozenset(
-    {"name", "machine", "grip", "link", "measured", "faults", "hold_budget"}
+    {
+        "name",
+        "machine",
+        "grip",
+        "holding",
+        "link",
+        "measured",
+        "faults",
+        "hold_budget",
+    }
 )
 COMMAND = frozenset({"status", "result", "error"})
 """Keys by which the answers of a daemon are told from those of something else."""
@@ -24,7 +33,8 @@ def status(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) 
     if as_json:
         typer.echo(json.dumps(state))
         return
-    typer.echo(f"{state['name']}: {state['machine']}, {state['grip']}")
+    held = f" {state['holding']}" if state["holding"] else ""
+    typer.echo(f"{state['name']}: {state['machine']}, {state['grip']}{held}")
     if state["link"] != "up":
         typer.echo(f"  link: {state['link']}")
     for fault in state["faults"]:
@@ -34,7 +44,9 @@ def status(url: Url = DEFAULT_URL, gripper: Name = None, as_json: Json = False) 
         value = "-" if reading["value"] is None else f"{reading['value']:.2f}"
         note = ""
         if reading["quality"] != "good":
-            note = f"  {reading['quality']}: {reading.get('cause', '')}"
+            # Why there is no link was said above.
+            cause = reading.get("cause", "").removesuffix(f": {state['link']}")
+            note = f"  {reading['quality']}: {cause}"
         typer.echo(f"  {key:<14}{value:>10}{note}")
     if state["hold_budget"] is not None:
         typer.echo(f"  hold budget   {_lasting(state['hold_budget'])}")

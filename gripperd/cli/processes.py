@@ -19,6 +19,7 @@ from typing import Any
 import structlog
 import uvloop
 
+from gripperd.cli.latches import adopt_faults, keep_latched
 from gripperd.cli.notify import notify
 from gripperd.cli.supervisor import SUPERVISED, stop_requested
 from gripperd.cli.tares import adopt_zero, keep_zeros
@@ -141,6 +142,7 @@ async def control(
                 advanced=partial(watchdog.advanced, name),
             )
             adopt_zero(settings.state_dir, gripper, loops[name].gripper)
+            adopt_faults(settings.state_dir, loops[name].gripper)
         desk = ControlDesk(
             loops,
             BusDesk(wired),
@@ -155,8 +157,9 @@ async def control(
         async with asyncio.TaskGroup() as tasks:
             for name, loop in loops.items():
                 tasks.create_task(loop.run())
-                kept = keep_zeros(settings.state_dir, settings.grippers[name], loop)
-                tasks.create_task(kept)
+                zeros = keep_zeros(settings.state_dir, settings.grippers[name], loop)
+                tasks.create_task(zeros)
+                tasks.create_task(keep_latched(settings.state_dir, loop))
             await _attached(loops)
             log.info("control runs", grippers=list(loops), real_time=real_time)
             notify(READY=1)

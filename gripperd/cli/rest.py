@@ -1,5 +1,7 @@
 """The REST of a running daemon, as the commands ask it."""
 
+import re
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Any
 from urllib.parse import quote
 
@@ -23,13 +25,36 @@ MARGIN = 5.0
 LIST = frozenset({"grippers"})
 """Keys by which the answers of a daemon are told from those of something else."""
 
+COMMANDS = (
+    (r"POST \.\.\./(reset|enable)", r"gripperd \1"),
+    (r"POST \.\.\./faults/(\w{8})\w*/acknowledge", r"gripperd acknowledge \1"),
+    (r"POST /v1/models/(\S+)/activate", r"gripperd model activate \1"),
+)
+"""Hints that name a request, and what to type instead."""
+OF_REQUESTS = re.compile(r"GET |Idempotency-Key")
+"""Tells hints that nobody can follow who types commands."""
+
 
 class Problem(GripperdError):
     """The daemon says no; the message is its problem document."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document.get("detail") or document.get("title") or "refused")
-        self.hints = tuple(document.get("hints") or ())
+        self.hints = tuple(typed(document.get("hints") or ()))
+
+
+def typed(hints: Iterable[str]) -> Iterator[str]:
+    """Hints for who types commands.
+
+    >>> list(typed(["mend the cause", "POST .../reset"]))
+    ['mend the cause', 'gripperd reset']
+    """
+    for hint in hints:
+        if OF_REQUESTS.search(hint):
+            continue
+        for request, command in COMMANDS:
+            hint = re.sub(request, command, hint)
+        yield hint
 
 
 def where(url: str, gripper: str | None) -> str:

@@ -73,19 +73,15 @@ class Child:
         self.alive()
         self._close()
         self._receiver = listen(self._address)
-        try:
-            self.process = await asyncio.create_subprocess_exec(
-                sys.executable,
-                "-m",
-                "gripperd",
-                *self.arguments,
-                env=self._environment(),
-                start_new_session=True,
-            )
-            self.facts = await self._ready(self._receiver)
-        except BaseException:
-            self._close()
-            raise
+        self.process = await asyncio.create_subprocess_exec(
+            sys.executable,
+            "-m",
+            "gripperd",
+            *self.arguments,
+            env=self._environment(),
+            start_new_session=True,
+        )
+        self.facts = await self._ready(self._receiver)
 
     @property
     def _address(self) -> Path:
@@ -158,8 +154,11 @@ class Child:
         return True
 
     async def end(self) -> None:
-        """Ask it to end, and insist."""
+        """Ask it to end, and insist; it may report until then."""
+        await self._end()
         self._close()
+
+    async def _end(self) -> None:
         if self.process is None or self.process.returncode is not None:
             return
         with suppress(ProcessLookupError):
@@ -195,8 +194,15 @@ async def supervise(children: list[Child]) -> None:
 async def _keep(child: Child) -> None:
     while True:
         status = await child.died()
-        log.error("process ended", process=child.name, status=status)
+        log.error("process ended", process=child.name, how=_how(status))
         await _revive(child)
+
+
+def _how(status: int) -> str:
+    """How a process ended, by its status."""
+    if status < 0:
+        return f"killed by {signal.Signals(-status).name}"
+    return f"exit status {status}"
 
 
 async def _revive(child: Child) -> None:

@@ -9,7 +9,6 @@ References
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 
 from gripperd.cli.notify import notify
 
@@ -30,8 +29,7 @@ def longest_silence(environment: Mapping[str, str] = os.environ) -> float | None
 
 def feed() -> None:
     """Say that this process is well, if whoever listens has an ear free."""
-    with suppress(OSError):
-        notify(WATCHDOG=1)
+    notify(WATCHDOG=1)
 
 
 class Watchdog:

@@ -33,11 +33,12 @@ Drawn from the tables of the program by
 A cause that is not latched is told and changes nothing else. One that is latched leads
 to `fault_reaction`, carries out its reaction, and stays in `fault` until it is
 acknowledged, its cause is gone and somebody resets it; that leads to `disabled` and
-moves nothing. The time until it is noticed holds at 100 Hz and for a change of twice
-the limit. It counts from the moment a part is gone, from the current that a valve does
-not follow, from the pressure at which a blocked jaw ought to press with the limit: how
-soon that is reached depends on the profile. Limit, duration, reaction and latch can be
-set for each gripper under `monitors`.
+moves nothing. Until then it outlives the control process. The time until it is noticed
+holds at 100 Hz and for a change of twice the limit. It counts from the moment a part is
+gone, from the current that a valve does not follow, from the pressure at which a
+blocked jaw ought to press with the limit: how soon that is reached depends on the
+profile. Limit, duration, reaction and latch can be set for each gripper under
+`monitors`.
 
 {monitors}
 

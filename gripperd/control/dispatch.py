@@ -111,6 +111,12 @@ class Dispatch:
         self._execute(measured, dt, now)
         self._expire(now)
 
+    def resume(self, *, same: bool) -> None:
+        """Take over what is found; it is what it was if nothing has moved since."""
+        held = self.keep.held if same else None
+        self._hold.adopt(None if held is None else held.profile.name)
+        self.keep.begin(held)
+
     def look_after(self, measured: Measurement, chain: Chain, dt: float) -> None:
         """See to what is held between commands."""
         keep, output = self.keep, self._output

@@ -14,6 +14,8 @@ class Step(StrEnum):
     ACKNOWLEDGE = "acknowledge"
     RESET = "reset"
     ENABLE = "enable"
+    COMMAND = "command"
+    """Give the next command: what is lost does not come back."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,6 +59,6 @@ class Fault:
             return ()
         mend = (Step.MEND,) if self.cleared_at is None else ()
         if not self.latched:
-            return mend
+            return (Step.COMMAND,) if self.cause is Cause.PART_LOST else mend
         seen = (Step.ACKNOWLEDGE,) if self.unseen else ()
         return (*seen, *mend, Step.RESET, Step.ENABLE)

@@ -4,6 +4,7 @@ from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from itertools import islice
+from math import inf
 
 from gripperd.control.fault import Fault
 from gripperd.control.journal import Happening, Journal
@@ -52,6 +53,13 @@ class Faults:
     def latched(self) -> tuple[Fault, ...]:
         """Faults that stop the gripper."""
         return tuple(fault for fault in self.active if fault.latched)
+
+    def adopt(self, latched: Iterable[Fault]) -> None:
+        """Go on with what an earlier life latched and nobody has reset."""
+        for fault in latched:
+            self._faults[fault.id] = fault
+            # What was gone is not back until it is seen.
+            self._away[fault.id] = 0.0 if fault.cleared_at is None else inf
 
     def newest(self, count: int) -> list[Fault]:
         """The last faults, newest first; those that are active are among them."""
@@ -129,7 +137,7 @@ class Faults:
         present = any(fault.cleared_at is None for fault in self.latched)
         mend = ("mend the cause",) if present else ()
         hints = (*self._unseen, *mend, "POST .../reset", "POST .../enable")
-        message = f"the gripper is in fault: {_listed(self.latched)}"
+        message = f"not possible before a reset: {_listed(self.latched)}"
         raise Refused(message, code="wrong-state", hints=hints)
 
     @property
@@ -145,7 +153,7 @@ class Faults:
         for fault in faults:
             self._faults[fault.id] = replace(fault, reset_at=now.wall)
             del self._away[fault.id]
-        self._tell("reset", now)
+            self._tell(f"{fault.cause} reset", now)
 
     def _follow(self, fault: Fault, now: Instant) -> None:
         """Note whether the cause is gone, or back."""
@@ -194,4 +202,9 @@ class Faults:
 
 
 def _listed(faults: Iterable[Fault]) -> str:
-    return "; ".join(fault.message for fault in faults)
+    return "; ".join(map(_shown, faults))
+
+
+def _shown(fault: Fault) -> str:
+    """What was wrong, and whether it still is."""
+    return fault.message if fault.cleared_at is None else f"{fault.message} (gone)"

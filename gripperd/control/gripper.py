@@ -26,7 +26,7 @@ from gripperd.control.permission import Permission
 from gripperd.control.protection import Protection, Sample
 from gripperd.control.senses import Senses
 from gripperd.control.snapshot import GripperState, Instant
-from gripperd.control.states import Event, Grip, Machine
+from gripperd.control.states import Event, Machine
 from gripperd.control.tare import tared
 from gripperd.control.zero import Zero
 from gripperd.errors import Refused
@@ -230,11 +230,13 @@ class Gripper:
         self.link = why
         if self.machine is Machine.OFFLINE:
             return
+        seen = self.attached
         self._life.on(Event.LINK_LOST)
         self._protection.forget()
         lost = Failure(category="fault", code="link-lost", message=why)
         self._dispatch.end_all(lost, now)
-        self.hold.settle(Grip.UNKNOWN, None)
+        if seen:
+            self.hold.lose_sight()
 
     def period(self, raw: Measurement, dt: float, now: Instant) -> float | None:
         """Advance by one period on a fresh sample.
@@ -284,9 +286,8 @@ class Gripper:
         self._samples += 1
         if measured.current.value is None or self._samples < ATTACH_SAMPLES:
             return
-        self._output.adopt(measured.current.value)
-        self.hold.adopt()
-        self._dispatch.keep.begin(None)
+        ours = self._output.adopt(measured.current.value)
+        self._dispatch.resume(same=ours and self.hold.unmoved)
         self.permission.begin()
         self._life.on(Event.ADOPT)
         if self._enabled and not self.faults.latched:

@@ -7,6 +7,9 @@ from gripperd.signals import Measurement
 MAY_HOLD = frozenset({Grip.HOLDING, Grip.UNKNOWN})
 """What is held is not lost from sight for good, such as by a lost link."""
 
+EMPTY = frozenset({Grip.RELEASED, Grip.NO_PART})
+"""Nothing is held, for sure."""
+
 
 class Hold:
     """The grip state of one gripper, and whose object it is."""
@@ -14,10 +17,12 @@ class Hold:
     def __init__(self) -> None:
         self.grip = Grip.UNKNOWN
         self.profile: str | None = None
-        """Profile of what is held, if a grasp of this life took it."""
+        """Profile of what is held, if a command of this life named it."""
         self.strongest: float | None = None
         """Highest grip force since something has been held. [N]"""
         self._watch = GripWatch()
+        self._sought = False
+        """Whether something was held, or missed, when the jaws were seen last."""
 
     def update(self, measured: Measurement, dt: float) -> None:
         """Take in the newest measurement."""
@@ -26,9 +31,28 @@ class Hold:
         if self.grip is Grip.HOLDING and force is not None:
             self.strongest = max(force, self.strongest or 0.0)
 
-    def adopt(self) -> None:
-        """Go by what is seen: nobody here brought it about."""
-        self.settle(self._watch.seen(), None)
+    def adopt(self, profile: str | None) -> None:
+        """Go by what is seen: nobody here brought it about.
+
+        Parameters
+        ----------
+        profile
+            Of what was held when it was seen last, if it can only be that.
+        """
+        seen = self._watch.seen()
+        if self._sought and seen in EMPTY:
+            seen = Grip.PART_LOST
+        self.settle(seen, profile)
+
+    @property
+    def unmoved(self) -> bool:
+        """Whether the jaws are where they were when they were seen last."""
+        return self._watch.unmoved
+
+    def lose_sight(self) -> None:
+        """Without a link, what is held may go any time."""
+        self._sought = self.grip in {Grip.HOLDING, Grip.PART_LOST}
+        self.settle(Grip.UNKNOWN, None)
 
     def settle(self, grip: Grip, profile: str | None) -> None:
         """Go by how a command began or ended."""

@@ -23,16 +23,18 @@ class Output:
         self._read: float | None = None
         self._overruled: tuple[float, float] | None = None
 
-    def adopt(self, found: float) -> None:
-        """Take over what the module does."""
+    def adopt(self, found: float) -> bool:
+        """Take over what the module does; whether it still does what it did for us."""
         # A write that was lost with the link leaves the module as it was read before.
         known = [] if self._read is None else [self._read, self.written]
-        if known and min(abs(found - each) for each in known) > FOREIGN_STEP:
+        ours = any(abs(found - each) <= FOREIGN_STEP for each in known)
+        if known and not ours:
             self._overruled = self.written, found
         self._read = found
         self.current = self.written = found
         self.adopted = True
         self._strange = 0
+        return ours
 
     def foreign(self, found: float) -> bool:
         """Whether the read-backs show that someone else wrote.

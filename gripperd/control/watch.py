@@ -47,6 +47,14 @@ class GripWatch:
         return Grip.NO_PART if self._force.measured else Grip.UNKNOWN
 
     @property
+    def unmoved(self) -> bool:
+        """Whether the jaws are where they were when there was a part to be lost."""
+        opening = None if self._measured is None else self._measured.opening.value
+        if opening is None or self._held_at is None:
+            return False
+        return abs(opening - self._held_at) < LOST_TRAVEL
+
+    @property
     def lost(self) -> bool:
         """Whether the part that was held is gone."""
         return self._missing >= LOST_SAMPLES

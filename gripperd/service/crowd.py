@@ -1,5 +1,7 @@
 """No more requests at a time than can be answered soon; a stop is always answered."""
 
+from asyncio import CancelledError
+
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gripperd.service.problems import ProblemResponse, problem
@@ -32,6 +34,9 @@ class Crowd:
         self._present += 1
         try:
             await self._app(scope, receive, send)
+        except CancelledError:
+            # The server ends, and has hung up; it would log this as a defect.
+            pass
         finally:
             self._present -= 1
 

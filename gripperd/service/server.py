@@ -52,6 +52,21 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         self._on_ready()
 
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Let requests in flight end, and hang up on those that do not."""
+        loop = asyncio.get_running_loop()
+        patience = loop.call_later(GRACE, self._hang_up)
+        try:
+            await super().shutdown(sockets)
+        finally:
+            patience.cancel()
+
+    def _hang_up(self) -> None:
+        for connection in tuple(self.server_state.connections):
+            connection.transport.abort()
+        for request in tuple(self.server_state.tasks):
+            request.cancel()
+
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
         yield
@@ -95,7 +110,6 @@ async def serve(
         access_log=False,
         proxy_headers=False,
         server_header=False,
-        timeout_graceful_shutdown=GRACE,
     )
     server = _Server(config, lambda: on_ready(url))
     serving = asyncio.create_task(server.serve([listening]))

@@ -3,7 +3,8 @@
 A command is on disk under an id of its own before control hears of it, and its client
 hears of it after both. So whatever ends when it will, a key stands for one command: who
 asks again is answered with that, or, if control cannot have had it, it is given under
-the same id.
+the same id. That id is made from the key, so that control still knows it by that when
+the disk has lost it.
 """
 
 import uuid
@@ -35,6 +36,8 @@ from gripperd.service.endings import RESTARTED, ended
 from gripperd.service.event_documents import command_record
 from gripperd.store.history import NOT_RECORDED, CommandRecord
 
+KEYS = uuid.UUID("58b623ea-911d-5cd8-b1e9-0a0b62452717")
+"""Namespace of the ids that are made from idempotency keys (RFC 9562, section 5.5)."""
 IN_TIME = 5.0
 """Control does not begin what comes later: by then its client was told so. [s]"""
 
@@ -67,7 +70,7 @@ class Submissions:
     life
         Tells which life of control was heard last, by the name of a gripper.
     now, identify
-        The clock, and where ids come from.
+        The clock, and where the ids of commands without a key come from.
     """
 
     def __init__(
@@ -133,6 +136,8 @@ class Submissions:
         self, submit: Submit, client_key: str | None, fingerprint: str, give: Give
     ) -> Given:
         name = self._identify()
+        if client_key is not None:
+            name = uuid.uuid5(KEYS, f"{submit.gripper}/{client_key}").hex
         self.underway.add(name)
         try:
             record = self._announced(submit, name, client_key, fingerprint)
@@ -176,7 +181,11 @@ class Submissions:
                 with suppress(Refused):
                     await self._archive.do(lambda history: history.forget(record.id))
             raise
-        return Given(command_document(submitted.command), recorded=recorded)
+        return Given(
+            command_document(submitted.command),
+            replayed=submitted.replayed,
+            recorded=recorded,
+        )
 
     async def _again(self, known: CommandRecord, submit: Submit, give: Give) -> Given:
         """Answer a request that was made before."""

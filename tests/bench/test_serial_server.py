@@ -77,12 +77,13 @@ async def test_pymodbus_writes_and_reads(rig: Rig, tmp_path: Path) -> None:
         client = ModbusSerialClient(str(tmp_path / "line"), timeout=PATIENT, retries=0)
         assert client.connect()
         try:
+            # Before the jaws move.
+            sensed = client.read_input_registers(0, count=3, device_id=2)
             written = client.write_register(0, 10_700, device_id=1)
             several = client.write_registers(1, [1, 2], device_id=1)
             assert not written.isError()
             assert not several.isError()
             read = client.read_holding_registers(0, count=3, device_id=1)
-            sensed = client.read_input_registers(0, count=3, device_id=2)
             refused = client.write_register(0, 20_001, device_id=1)
             return read.registers, sensed.registers, refused.exception_code
         finally:

@@ -1,13 +1,15 @@
 """The way out of a fault, as a person types it."""
 
 import json
+import os
+import signal
 from collections.abc import Iterator
 from subprocess import CompletedProcess
 
 import httpx
 import pytest
 
-from tests.daemon import Daemon, gripperd, running_daemon, until
+from tests.daemon import Daemon, children, gripperd, running_daemon, until
 
 GRIPPER = "/v1/grippers/g0"
 
@@ -28,6 +30,18 @@ def refuses(daemon: Daemon, status: int, why: str, *arguments: str) -> None:
     assert why in refused.stderr
 
 
+def outlives_control(daemon: Daemon, fault: dict[str, str]) -> None:
+    """A new life of control does not forget what nobody has seen."""
+    first = children(daemon.process)["control"]
+    os.kill(first, signal.SIGKILL)
+    until(lambda: children(daemon.process).get("control", first) != first)
+    until(lambda: fault["id"][:8] in said(daemon, "status").stdout, 60)
+    assert said(daemon, "status").stdout.startswith("g0: fault, holding")
+    history = f"{daemon.url}/v1/history?kind=adoption"
+    told = f"adopted a latched fault: {fault['cause']}: {fault['message']}"
+    until(lambda: told in httpx.get(history).text)
+
+
 def test_what_is_well_has_nothing_to_tell(daemon: Daemon) -> None:
     assert said(daemon, "faults").stdout == "no faults\n"
     assert said(daemon, "acknowledge", "all").stdout == "nothing to acknowledge\n"
@@ -43,12 +57,15 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
     until(lambda: httpx.get(f"{url}{GRIPPER}").json()["machine"] == "fault")
 
     status = said(daemon, "status").stdout
-    assert status.startswith("g0: fault, holding")
+    assert status.startswith("g0: fault, holding apple\n")
     assert "valve_not_following, latched, since 20" in status
     assert "to do: acknowledge, mend, reset, enable" in status
     listed = json.loads(said(daemon, "faults", "--active", "--json").stdout)["faults"]
     (fault,) = (each for each in listed if each["latched"])
     refuses(daemon, 1, "not acknowledged yet", "reset")
+    outlives_control(daemon, fault)
+    refuses(daemon, 1, f"hint: gripperd acknowledge {fault['id'][:8]}\n", "release")
+    refuses(daemon, 1, "hint: gripperd reset\n  hint: gripperd enable\n", "release")
     refuses(daemon, 2, "0 faults begin with 'xyz'; there is", "acknowledge", "xyz")
     seen = said(daemon, "acknowledge", fault["id"][:8], "--by", "Ada")
     assert "acknowledged by Ada" in seen.stdout
@@ -57,6 +74,7 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
 
     httpx.delete(f"{url}/v1/bench/faults").raise_for_status()
     until(lambda: "to do: reset, enable" in said(daemon, "faults", "--active").stdout)
+    assert ", gone since 20" in said(daemon, "status").stdout
     current = httpx.get(f"{url}/v1/bench").json()["current_mA"]
     assert said(daemon, "reset").stdout == "disabled, holding\n"
     assert json.loads(said(daemon, "enable", "--json").stdout)["machine"] == "ready"

@@ -4,6 +4,7 @@ import os
 import signal
 import socket
 import stat
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import httpx
 import pytest
 
 from tests.daemon import (
+    START,
     Daemon,
     children,
     found,
@@ -165,6 +167,35 @@ def test_a_file_that_breaks_takes_nothing_down(tmp_path: Path) -> None:
     checked = gripperd("config", "check", str(settings))
     assert checked.returncode == 0
     assert f"warning: {folder}/plum.yaml:2: version" in checked.stdout
+
+
+def test_who_is_told_to_end_in_the_middle_of_the_start_ends_quietly(
+    tmp_path: Path,
+) -> None:
+    arguments = [*START, "run", "--config", str(settings_file(tmp_path))]
+    with (tmp_path / "log").open("w+") as log:
+        process = subprocess.Popen(arguments, stdout=log, stderr=log, text=True)
+        until(lambda: "control" in children(process))
+        # Until it is killed, control goes on with its start.
+        os.kill(children(process)["service"], signal.SIGSTOP)
+        process.terminate()
+        assert process.wait(60) == 0
+        log.seek(0)
+        said = log.read()
+    assert "Traceback" not in said
+    assert "nobody hears" not in said
+    assert "SIGTERM: ending" in said
+
+
+def test_a_report_that_nobody_hears_ends_nothing(tmp_path: Path) -> None:
+    arguments = [*START, "bench", "--config", str(settings_file(tmp_path))]
+    nowhere = os.environ | {"NOTIFY_SOCKET": str(tmp_path / "nowhere")}
+    with (tmp_path / "log").open("w+") as log:
+        process = subprocess.Popen(arguments, stderr=log, env=nowhere)
+        until(lambda: "nobody hears" in (tmp_path / "log").read_text())
+        process.terminate()
+        assert process.wait(60) == 0
+    assert "Traceback" not in (tmp_path / "log").read_text()
 
 
 def test_a_process_without_its_supervisor_does_not_start(tmp_path: Path) -> None:

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from itertools import count
 
 import pytest
@@ -130,5 +131,21 @@ def test_what_happens_is_told_in_the_journal(faults: Faults, journal: Journal) -
         "burst: the muscle burst",
         "burst acknowledged by Ada",
         "burst cleared",
-        "reset",
+        "burst reset",
     ]
+
+
+def test_a_new_life_goes_on_with_what_was_latched(faults: Faults) -> None:
+    faults.update([(BURST, LATCHED)], 0.01, at(0.0))
+    (burst,) = faults.latched
+    gone = replace(burst, id="f7", subject="2", cleared_at=1e9 + 1.0)
+    journal = Journal()
+    later = Faults("g0", lambda: "new", journal)
+    later.adopt([burst, gone])
+    assert later.update([(BURST, LATCHED)], 0.01, at(9.0)) == []
+    assert later.latched == (burst, gone)
+    assert journal.newest == 0
+    later.update([], 2.0, at(11.0))
+    assert [entry.text for entry in journal.since(0)] == ["burst cleared"]
+    with pytest.raises(Refused, match="not acknowledged yet"):
+        later.reset(at(12.0))

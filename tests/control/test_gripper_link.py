@@ -1,10 +1,12 @@
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import pytest
 
 from gripperd.bench.faults import HEALTHY, BenchFaults
 from gripperd.bench.sensors import Channel
 from gripperd.control.command import GraspOrder, Status
+from gripperd.control.monitors.policy import Cause
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Grip, Machine
 from gripperd.errors import Refused
@@ -93,6 +95,70 @@ def test_after_a_lost_link_what_is_held_is_adopted(holding: Stage) -> None:
         "up",
     )
     assert state.adopted
+
+
+def test_after_a_lost_link_what_has_not_moved_is_what_it_was(holding: Stage) -> None:
+    before = holding.state.held
+    assert before is not None
+    holding.run(0.5)
+    for _ in range(2):
+        holding.gripper.link_lost("gone", holding.instant)
+        holding.pass_time(2.0)
+        holding.run(1.0)
+    state = holding.state
+    assert state.held is not None
+    assert (state.holding, state.held.profile) == ("apple", before.profile)
+    # Its current was found, not commanded: it is left alone.
+    assert (state.held.force, holding.writes) == (None, [])
+
+
+def swapped(stage: Stage) -> None:
+    apple = stage.rig.plant.placed
+    assert apple is not None
+    stage.rig.plant.remove()
+    stage.rig.plant.place(replace(apple.kind, diameter=60e-3))
+
+
+def driven_by_others(stage: Stage) -> None:
+    stage.rig.write_current(0.0105)
+
+
+@pytest.mark.parametrize("happened", [swapped, driven_by_others])
+def test_after_a_lost_link_what_has_changed_is_not_known(
+    holding: Stage, happened: Callable[[Stage], None]
+) -> None:
+    holding.run(0.5)
+    holding.gripper.link_lost("gone", holding.instant)
+    happened(holding)
+    holding.pass_time(2.0)
+    holding.run(1.0)
+    state = holding.state
+    assert (state.grip, state.holding, state.held) == (Grip.HOLDING, None, None)
+
+
+def test_what_moved_while_the_link_came_and_went_is_not_known(holding: Stage) -> None:
+    holding.run(0.5)
+    holding.gripper.link_lost("gone", holding.instant)
+    swapped(holding)
+    holding.pass_time(2.0)
+    # Too short to be attached.
+    holding.run(0.02)
+    assert holding.state.machine is Machine.ATTACHING
+    holding.gripper.link_lost("gone", holding.instant)
+    holding.run(1.0)
+    assert (holding.state.grip, holding.state.held) == (Grip.HOLDING, None)
+
+
+def test_what_was_lost_without_a_link_is_missed(holding: Stage) -> None:
+    holding.rig.plant.remove()
+    for _ in range(2):
+        holding.gripper.link_lost("gone", holding.instant)
+        holding.pass_time(2.0)
+        holding.run(0.5)
+    state = holding.state
+    assert (state.machine, state.grip) == (Machine.READY, Grip.PART_LOST)
+    (fault,) = state.faults
+    assert (fault.cause, fault.latched) == (Cause.PART_LOST, False)
 
 
 def test_a_link_lost_while_closing_recovers_by_adoption(

@@ -90,6 +90,7 @@ def test_a_lost_part_is_told_and_stops_nothing(daemon: Daemon) -> None:
     lost = next(each for each in found["faults"] if each["cause"] == "part_lost")
     assert lost["message"].startswith("apple is gone from the jaws")
     assert (lost["latched"], lost["reaction"]) == (False, "hold")
+    assert lost["way_out"] == ["command"]
 
 
 def test_who_watches_the_daemon_sees_a_fault(daemon: Daemon) -> None:

@@ -1,10 +1,14 @@
 """Starting and ending the web server."""
 
+import asyncio
+import logging
 import socket
+from contextlib import ExitStack
 
 import httpx
 import pytest
 from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gripperd.errors import Refused
 from gripperd.service.server import serve
@@ -16,6 +20,33 @@ APP = PlainTextResponse("here")
 
 async def _on_a_free_port(report: Report) -> None:
     await serve(APP, "127.0.0.1", 0, report)
+
+
+async def _mute(scope: Scope, receive: Receive, send: Send) -> None:
+    """Begin an answer, and never go on."""
+    await send({"type": "http.response.start", "status": 200, "headers": []})
+    await send({"type": "http.response.body", "body": b"so", "more_body": True})
+    await asyncio.Event().wait()
+
+
+async def _talkative(scope: Scope, receive: Receive, send: Send) -> None:
+    """Say more than anybody reads."""
+    await send({"type": "http.response.start", "status": 200, "headers": []})
+    while True:
+        body = bytes(1 << 20)
+        await send({"type": "http.response.body", "body": body, "more_body": True})
+
+
+@pytest.mark.parametrize("app", [_mute, _talkative])
+def test_at_its_end_it_hangs_up_on_who_is_still_being_answered(
+    app: ASGIApp, caplog: pytest.LogCaptureFixture
+) -> None:
+    async def serving(report: Report) -> None:
+        await serve(app, "127.0.0.1", 0, report)
+
+    with ExitStack() as reading, running(serving) as url:
+        reading.enter_context(httpx.stream("GET", url))
+    assert [each for each in caplog.records if each.levelno >= logging.WARNING] == []
 
 
 def test_it_says_where_it_really_listens() -> None:
