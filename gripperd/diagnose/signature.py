@@ -45,7 +45,7 @@ def _told(signal: str, views: list[Structure]) -> list[str]:
     words += [
         f"{signal}: not on {_spelt(one)}"
         for one in views
-        if one.p_value > 0.01 and one.along not in plain
+        if one.p_value > 0.01 and one.along not in plain and "Hz" not in one.along
     ]
     return words
 

@@ -37,6 +37,14 @@ def test_what_it_depends_on_and_what_not_is_told(
     assert "force: not on temperature" in words
 
 
+def test_a_wave_is_told_only_when_there_is_one(
+    blank: Problem, unnamed: Contest
+) -> None:
+    wave = "time, at 1.7 Hz"
+    assert f"force: depends on {wave}" in _words(blank, unnamed, _view(wave, 1e-30))
+    assert not any("Hz" in word for word in _words(blank, unnamed, _view(wave, 0.4)))
+
+
 def test_what_is_neither_clear_nor_absent_is_not_told(
     blank: Problem, unnamed: Contest
 ) -> None:
