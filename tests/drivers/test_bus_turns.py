@@ -62,9 +62,9 @@ async def test_an_urgent_request_passes_fifty_that_wait() -> None:
 
 async def test_a_turn_given_to_one_who_has_just_left_goes_to_the_next() -> None:
     turns = Turns()
-    await turns.take(urgent=False)
-    leaving = asyncio.create_task(turns.take(urgent=False))
-    staying = asyncio.create_task(turns.take(urgent=False))
+    assert turns.take()
+    leaving = asyncio.create_task(turns.wait(urgent=False))
+    staying = asyncio.create_task(turns.wait(urgent=False))
     await asyncio.sleep(0)
     leaving.cancel()
     turns.give()
@@ -76,9 +76,9 @@ async def test_a_turn_given_to_one_who_has_just_left_goes_to_the_next() -> None:
 
 async def test_a_turn_that_came_too_late_is_passed_on() -> None:
     turns = Turns()
-    await turns.take(urgent=False)
-    leaving = asyncio.create_task(turns.take(urgent=False))
-    staying = asyncio.create_task(turns.take(urgent=False))
+    assert turns.take()
+    leaving = asyncio.create_task(turns.wait(urgent=False))
+    staying = asyncio.create_task(turns.wait(urgent=False))
     await asyncio.sleep(0)
     turns.give()
     leaving.cancel()
