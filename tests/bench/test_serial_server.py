@@ -2,7 +2,6 @@
 
 import asyncio
 import os
-import shutil
 import termios
 import time
 import tty
@@ -26,6 +25,7 @@ from gripperd.drivers.bus import RtuAddress, open_bus
 from gripperd.errors import InputError, Refused
 from gripperd.protocol.modbus import Read, Table, Write
 from gripperd.protocol.rtu import crc
+from tests.interop.programs import needed
 
 from .line import PATIENT, SOON, fitted
 
@@ -96,9 +96,7 @@ async def test_pymodbus_writes_and_reads(rig: Rig, tmp_path: Path) -> None:
 
 
 async def test_mbpoll_writes_and_reads(rig: Rig, tmp_path: Path) -> None:
-    program = shutil.which("mbpoll")
-    if program is None:
-        pytest.skip("mbpoll is not installed (apt-get install mbpoll)")
+    program = needed("mbpoll")
 
     async def mbpoll(*more: str) -> str:
         line = ("-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-0", "-r", "0")
