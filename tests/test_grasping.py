@@ -226,21 +226,10 @@ def test_mbpoll_reads_the_hold_and_closes_the_jaws_by_itself(
     http: httpx.Client, daemon: Daemon
 ) -> None:
     host, port = daemon.bench
-    mbpoll = [
-        needed("mbpoll"),
-        "-m",
-        "tcp",
-        "-p",
-        str(port),
-        "-a",
-        "1",
-        "-0",
-        "-r",
-        "0",
-    ]
+    register = ["-m", "tcp", "-p", str(port), "-a", "1", "-0", "-r", "0", "-t", "4"]
     place(http, profile="raw_egg")
     command(http, {"type": "grasp", "profile": "raw_egg", "current_mA": 10.7})
-    read = [*mbpoll, "-t", "4", "-1", "-q", host]
+    read = [needed("mbpoll"), *register, "-1", "-q", host]
     said = subprocess.run(read, capture_output=True, text=True, check=True).stdout
     assert "10700" in said
 
