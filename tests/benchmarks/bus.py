@@ -4,8 +4,9 @@ Ours runs on uvloop, as the daemon does. pymodbus keeps no silence between RTU f
 it is compared with ours without; the silence of the specification stands below. The
 floor sends the same octets and blocks until as many as expected are back, unread.
 
-They take turns, many times: what else the machine does meets all of them. Where it does
-nothing else, waking a processor takes most of the time, and of everybody alike.
+They take turns, many times: what else the machine does meets all of them. On an idle
+machine client and device sleep on a processor each, and waking those takes most of the
+time, of everybody alike; on a busy one, or on one processor, they wake each other.
 """
 
 import asyncio
