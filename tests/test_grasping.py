@@ -1,6 +1,5 @@
 """The main job, end to end: REST to the jaws of the bench, over real sockets."""
 
-import shutil
 import subprocess
 import time
 from collections.abc import Iterator
@@ -12,6 +11,7 @@ import pytest
 from pyModbusTCP.client import ModbusClient
 
 from tests.daemon import Daemon, running_daemon, until
+from tests.interop.programs import needed
 
 OBJECTS = ("apple", "peach", "raw_egg", "grape")
 
@@ -222,15 +222,14 @@ def test_another_modbus_client_reads_the_hold(
     client.close()
 
 
-@pytest.mark.skipif(shutil.which("mbpoll") is None, reason="mbpoll is not installed")
 def test_mbpoll_reads_the_hold_and_closes_the_jaws_by_itself(
     http: httpx.Client, daemon: Daemon
 ) -> None:
     host, port = daemon.bench
-    mbpoll = ["mbpoll", "-m", "tcp", "-p", str(port), "-a", "1", "-0", "-r", "0"]
+    register = ["-m", "tcp", "-p", str(port), "-a", "1", "-0", "-r", "0", "-t", "4"]
     place(http, profile="raw_egg")
     command(http, {"type": "grasp", "profile": "raw_egg", "current_mA": 10.7})
-    read = [*mbpoll, "-t", "4", "-1", "-q", host]
+    read = [needed("mbpoll"), *register, "-1", "-q", host]
     said = subprocess.run(read, capture_output=True, text=True, check=True).stdout
     assert "10700" in said
 

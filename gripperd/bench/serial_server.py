@@ -216,12 +216,32 @@ def _made(path: Path) -> Iterator[int]:
     try:
         tty.setraw(far)
         os.set_blocking(near, False)
-        # A link that leads nowhere was left by a bench that was killed.
-        path.unlink(missing_ok=True)
-        path.symlink_to(os.ttyname(far))
+        name = Path(os.ttyname(far))
+        _clear(path, name.parent)
+        path.symlink_to(name)
         yield near
     finally:
         if path.is_symlink() and str(path.readlink()) == os.ttyname(far):
             path.unlink()
         os.close(near)
         os.close(far)
+
+
+def _clear(path: Path, ptys: Path) -> None:
+    """Remove the link to a pty that a bench of this user has left when it was killed.
+
+    Raises
+    ------
+    Refused
+        Somebody else's link, or one to something else.
+    """
+    if not path.is_symlink():
+        return
+    end = path.readlink()
+    if path.lstat().st_uid != os.geteuid() or end.parent != ptys:
+        message = (
+            f"{path} is in the way: a link to {end}, which is not there, and no bench"
+            " of this user has left it; remove it or choose another path"
+        )
+        raise Refused(message, code="port-taken")
+    path.unlink()

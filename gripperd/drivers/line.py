@@ -1,6 +1,7 @@
 """What every open line has in common: a stream that is cut into replies."""
 
 import asyncio
+import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Generic, Protocol, TypeAlias, TypeVar
@@ -11,7 +12,7 @@ from gripperd.errors import BadReply, LinkError, LinkLost, ReplyTimeout
 Q = TypeVar("Q")
 """A request."""
 
-Cut: TypeAlias = Callable[[Q, bytearray], int | None]
+Cut: TypeAlias = Callable[[Q, bytes], int | None]
 """Length of the reply at the start of a buffer, see `Dialect.frame_length`."""
 
 
@@ -22,15 +23,26 @@ class Line(ABC, Generic[Q]):
     ----------
     name
         Of the peer, for messages.
+    timeout
+        How long a reply may take. [s]
     cut
         Finds the end of a reply.
     statistics
         Counts what is thrown away.
+    now
+        A clock that never steps. [s]
     """
 
-    def __init__(self, name: str, cut: Cut[Q], statistics: BusStatistics) -> None:
+    def __init__(
+        self,
+        name: str,
+        timeout: float,
+        cut: Cut[Q],
+        statistics: BusStatistics,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
         self.closed = asyncio.Event()
-        self.received = bytearray()
+        self.received = b""
         """Octets that no reply has claimed."""
         self.proved = True
         """Whether what comes back is known to be more than an echo."""
@@ -41,15 +53,18 @@ class Line(ABC, Generic[Q]):
         self.outage = ""
         """Why it is closed."""
         self._name = name
+        self._timeout = timeout
+        self._now = now
         self._cut = cut
         self._statistics = statistics
         self._loop = asyncio.get_running_loop()
         self._request: Q
         self._reply: asyncio.Future[bytes] | None = None
-        self._overdue: asyncio.TimerHandle | None = None
+        self._due = 0.0
+        self._alarm: asyncio.TimerHandle | None = None
 
     @abstractmethod
-    def send(self, request: Q, octets: bytes, timeout: float) -> asyncio.Future[bytes]:
+    def send(self, request: Q, octets: bytes) -> asyncio.Future[bytes]:
         """Put a request on the line; the future is its reply, not yet judged.
 
         Raises
@@ -78,52 +93,51 @@ class Line(ABC, Generic[Q]):
     async def drain(self) -> None:
         """Return when a spoiled line is sound again, or closed."""
 
-    def expect(self, request: Q, timeout: float) -> asyncio.Future[bytes]:
-        """Wait for the reply to a request that is being sent. [s]."""
+    def expect(self, request: Q) -> asyncio.Future[bytes]:
+        """Wait for the reply to a request that is being sent."""
         self._request = request
         self._reply = self._loop.create_future()
-        self._overdue = self._loop.call_later(timeout, self._time_out, timeout)
+        self._due = self._now() + self._timeout
+        # One alarm serves many requests, as making one takes longer than telling time.
+        if self._alarm is None:
+            self._alarm = self._loop.call_later(self._timeout, self._look_at_clock)
         return self._reply
 
     def hear(self, octets: bytes) -> None:
         """Take what has come, and answer once the reply is complete."""
         self.received += octets
-        if self._reply is None:
+        reply = self._reply
+        if reply is None:
             self.overhear()
             return
         try:
             length = self._cut(self._request, self.received)
         except LinkError as error:
-            self.answer(error)
+            self.fail(error)
             return
         if length is None:
             return
-        frame = bytes(self.received[:length])
-        del self.received[:length]
-        self.answer(frame)
+        frame, self.received = self.received[:length], self.received[length:]
+        self._reply = None
+        # Who asked may have been cancelled a moment ago.
+        if not reply.done():
+            reply.set_result(frame)
 
-    def answer(self, outcome: bytes | LinkError) -> None:
-        """Tell who waits, if anybody does."""
+    def fail(self, error: LinkError) -> None:
+        """Tell who waits, if anybody does, that there will be no reply."""
         reply = self._reply
-        self.forget()
-        if reply is None or reply.done():
-            return
-        if isinstance(outcome, LinkError):
-            reply.set_exception(outcome)
-        else:
-            reply.set_result(outcome)
+        self._reply = None
+        if reply is not None and not reply.done():
+            reply.set_exception(error)
 
     def forget(self) -> None:
         """Wait for nothing any more."""
         self._reply = None
-        if self._overdue is not None:
-            self._overdue.cancel()
-            self._overdue = None
 
     def discard(self) -> None:
         """Throw away what no reply has claimed."""
         self._statistics.discarded += len(self.received)
-        self.received.clear()
+        self.received = b""
 
     def lost(self, why: str) -> None:
         """Note that the connection is gone."""
@@ -131,17 +145,25 @@ class Line(ABC, Generic[Q]):
             return
         self.closed.set()
         self.outage = why
-        self.answer(LinkLost(f"{self._name}: {why}"))
+        self.fail(LinkLost(f"{self._name}: {why}"))
 
     def unasked(self) -> BadReply:
         """The complaint about octets that no request explains."""
-        octets = bytes(self.received[:32]).hex(" ")
+        octets = self.received[:32].hex(" ")
         return BadReply(f"{self._name}: octets nobody asked for: {octets}")
 
-    def _time_out(self, timeout: float) -> None:
-        self.answer(
+    def _look_at_clock(self) -> None:
+        """Give up the reply that is waited for, or look again when it is due."""
+        self._alarm = None
+        if self._reply is None:
+            return
+        left = self._due - self._now()
+        if left > 0:
+            self._alarm = self._loop.call_later(left, self._look_at_clock)
+            return
+        self.fail(
             ReplyTimeout(
-                f"{self._name} did not answer within {timeout * 1e3:g} ms:"
+                f"{self._name} did not answer within {self._timeout * 1e3:g} ms:"
                 f" {self._request}"
             )
         )

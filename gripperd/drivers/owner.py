@@ -61,7 +61,6 @@ class Bus(Generic[Q, R]):
         """Set while the line is open."""
         self._dialect = dialect
         self._connector = connector
-        self._timeout = address.timeout
         self._turns = Turns()
         self._line: Line[Q] | None = None
         self._outage = "it was not opened yet"
@@ -99,7 +98,8 @@ class Bus(Generic[Q, R]):
         DeviceRefused
             The device answered with an exception; the line is sound.
         """
-        await self._turns.take(urgent=urgent)
+        if not self._turns.take():
+            await self._turns.wait(urgent=urgent)
         try:
             return await self._exchange(request() if callable(request) else request)
         finally:
@@ -121,10 +121,10 @@ class Bus(Generic[Q, R]):
                 await line.pause()
                 sent = self._now()
             self.statistics.requests += 1
-            frame = await line.send(request, octets, self._timeout)
+            frame = await line.send(request, octets)
             answer = self._dialect.decode(request, sequence, frame)
         except BaseException as error:
-            reply = frame or bytes(line.received)
+            reply = frame or line.received
             if isinstance(error, DeviceRefused):
                 self._presence.answers()
             self._count(line, error)

@@ -55,7 +55,7 @@ class SerialLine(Line[Q]):
         silence: float,
         now: Callable[[], float],
     ) -> None:
-        super().__init__(str(address), cut, statistics)
+        super().__init__(str(address), address.timeout, cut, statistics, now)
         # Whoever had the port before may have asked something.
         self.spoiled = True
         # A converter that echoes is found out by the first reply that is believed.
@@ -64,9 +64,6 @@ class SerialLine(Line[Q]):
         self._port = port
         self._descriptor = port.fileno()
         self._silence = silence
-        # How long a reply that was given up may still be on its way.
-        self._late = address.timeout
-        self._now = now
         self._heard = now()
         self._loop.add_reader(self._descriptor, self._read)
 
@@ -78,7 +75,7 @@ class SerialLine(Line[Q]):
         BadReply
             It does not fall silent.
         """
-        limit = self._now() + self._late
+        limit = self._now() + self._timeout
         self._read()
         while (left := self._heard + self._silence - self._now()) > 0:
             if self._now() > limit:
@@ -87,7 +84,7 @@ class SerialLine(Line[Q]):
             await asyncio.sleep(left)
         self.discard()
 
-    def send(self, request: Q, octets: bytes, timeout: float) -> asyncio.Future[bytes]:
+    def send(self, request: Q, octets: bytes) -> asyncio.Future[bytes]:
         """Put a request on the line, see :meth:`Line.send`."""
         if self.closed.is_set():
             message = f"{self._name} is not there any more"
@@ -103,7 +100,7 @@ class SerialLine(Line[Q]):
             self.close("it takes no more octets")
             message = f"{self._name} took {written} of {len(octets)} octets"
             raise LinkLost(message)
-        reply = self.expect(request, timeout)
+        reply = self.expect(request)
         # A broadcast has its empty reply already.
         self.hear(b"")
         return reply
@@ -123,9 +120,10 @@ class SerialLine(Line[Q]):
 
         A line that is never quiet is closed: too fast a speed, or another master.
         """
-        limit = self._now() + LONGEST_DRAIN * self._late
+        # A reply that was given up may be on its way for as long again.
+        limit = self._now() + LONGEST_DRAIN * self._timeout
         while not self.closed.is_set():
-            left = self._heard + self._late - self._now()
+            left = self._heard + self._timeout - self._now()
             if left <= 0:
                 self.spoiled = False
                 break

@@ -39,15 +39,15 @@ class TcpLine(Line[Q], asyncio.Protocol):
         """Asyncio has lost the peer."""
         self.lost("the peer closed the connection")
 
-    def send(self, request: Q, octets: bytes, timeout: float) -> asyncio.Future[bytes]:
+    def send(self, request: Q, octets: bytes) -> asyncio.Future[bytes]:
         """Put a request on the line, see :meth:`Line.send`."""
-        if self.closed.is_set() or self._transport.is_closing():
+        if self._transport.is_closing():
             message = f"{self._name}: the peer has closed the connection"
             raise LinkLost(message)
         if self.received:
             raise self.unasked()
         self._transport.write(octets)
-        return self.expect(request, timeout)
+        return self.expect(request)
 
     def spoil(self) -> None:
         """Close, to be opened anew."""
@@ -72,7 +72,7 @@ class TcpConnector(Generic[Q]):
         self, address: TcpAddress, cut: Cut[Q], statistics: BusStatistics
     ) -> None:
         self._address = address
-        self._line = partial(TcpLine, str(address), cut, statistics)
+        self._line = partial(TcpLine, str(address), address.timeout, cut, statistics)
 
     async def open(self) -> Line[Q]:
         """Connect.

@@ -12,11 +12,15 @@ class Turns:
         self._urgent: deque[asyncio.Future[None]] = deque()
         self._waiting: deque[asyncio.Future[None]] = deque()
 
-    async def take(self, *, urgent: bool) -> None:
-        """Return when it is the caller's turn."""
-        if not self._taken:
-            self._taken = True
-            return
+    def take(self) -> bool:
+        """Take the turn if nobody has it, and say whether it was taken."""
+        if self._taken:
+            return False
+        self._taken = True
+        return True
+
+    async def wait(self, *, urgent: bool) -> None:
+        """Return when it is the caller's turn, after whoever has it now."""
         queue = self._urgent if urgent else self._waiting
         turn: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         queue.append(turn)

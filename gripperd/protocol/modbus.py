@@ -28,15 +28,14 @@ class Table(IntEnum):
     HOLDING = 3
     INPUT = 4
 
-    @property
-    def of_bits(self) -> bool:
-        """Whether it holds bits, not registers."""
-        return self <= Table.DISCRETE
+    of_bits: bool
+    """Whether it holds bits, not registers."""
+    most: int
+    """Bits or registers that one request can read."""
 
-    @property
-    def most(self) -> int:
-        """Bits or registers that one request can read."""
-        return 2000 if self.of_bits else 125
+    def __init__(self, function: int) -> None:
+        self.of_bits = function <= 2
+        self.most = 2000 if self.of_bits else 125
 
 
 class Refusal(IntEnum):
@@ -80,7 +79,7 @@ class Read:
     @property
     def function(self) -> int:
         """Function code."""
-        return int(self.table)
+        return self.table
 
     def __str__(self) -> str:
         """As a person would say it."""

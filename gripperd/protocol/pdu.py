@@ -10,7 +10,7 @@ References
 import struct
 from collections.abc import Sequence
 
-from gripperd.errors import DeviceRefused, InputError
+from gripperd.errors import BadReply, DeviceRefused, InputError
 from gripperd.protocol.disbelief import not_believed
 from gripperd.protocol.modbus import (
     WRITE_COIL,
@@ -35,15 +35,18 @@ SHORT = struct.Struct(">BHH")
 ON, OFF = 0xFF00, 0x0000
 """What a coil is told ([1], section 6.5)."""
 
+_REGISTERS = tuple(
+    struct.Struct(f">{count}H") for count in range(Table.HOLDING.most + 1)
+)
+"""What packs so many registers."""
 _TABLES = frozenset(map(int, Table))
 _FUNCTIONS = _TABLES | {WRITE_COIL, WRITE_REGISTER, WRITE_REGISTERS}
 
 
 def encode_request(request: Request) -> bytes:
     """PDU of a request."""
-    function = request.function
-    head = SHORT.pack(function, request.address, _word(request))
-    if not isinstance(request, Write) or function == WRITE_REGISTER:
+    head = _head(request)
+    if not isinstance(request, Write) or head[0] == WRITE_REGISTER:
         return head
     count = len(request.values)
     return head + struct.pack(f">B{count}H", 2 * count, *request.values)
@@ -73,28 +76,35 @@ def decode_reply(request: Request, pdu: bytes) -> tuple[int, ...]:
     DeviceRefused
         A well-formed exception reply.
     """
-    function = request.function
-    if len(pdu) == EXCEPTION_OCTETS and pdu[0] == function | EXCEPTION:
-        raise _refused(request, pdu[1])
-    if not pdu or pdu[0] != function:
-        raise not_believed(request, "it answers another function", pdu.hex(" "))
-    if len(pdu) != reply_octets(request):
-        raise not_believed(request, "it has another length", pdu.hex(" "))
     if isinstance(request, Read):
-        return _decode_read(request, pdu)
-    _, address, word = SHORT.unpack(pdu)
-    if address != request.address or word != _word(request):
-        raise not_believed(request, "its echo differs", pdu.hex(" "))
-    return (int(request.on),) if isinstance(request, WriteCoil) else request.values
+        octets = reply_octets(request)
+        if len(pdu) == octets and pdu[0] == request.table and pdu[1] == octets - 2:
+            return _read_values(request, pdu)
+    elif pdu == _head(request):
+        return (int(request.on),) if isinstance(request, WriteCoil) else request.values
+    raise _complaint(request, pdu)
 
 
-def _decode_read(request: Read, pdu: bytes) -> tuple[int, ...]:
-    if pdu[1] != len(pdu) - 2:
-        raise not_believed(request, "its byte count is wrong", pdu.hex(" "))
+def _complaint(request: Request, pdu: bytes) -> DeviceRefused | BadReply:
+    """What is wrong with a reply that does not grant a request."""
+    if len(pdu) == EXCEPTION_OCTETS and pdu[0] == request.function | EXCEPTION:
+        return _refused(request, pdu[1])
+    if not pdu or pdu[0] != request.function:
+        why = "it answers another function"
+    elif len(pdu) != reply_octets(request):
+        why = "it has another length"
+    elif isinstance(request, Read):
+        why = "its byte count is wrong"
+    else:
+        why = "its echo differs"
+    return not_believed(request, why, pdu.hex(" "))
+
+
+def _read_values(request: Read, pdu: bytes) -> tuple[int, ...]:
     if request.table.of_bits:
         bits = int.from_bytes(pdu[2:], "little")
         return tuple(bits >> place & 1 for place in range(request.count))
-    return struct.unpack_from(f">{request.count}H", pdu, 2)
+    return _REGISTERS[request.count].unpack_from(pdu, 2)
 
 
 def decode_request(unit: int, pdu: bytes) -> Request | Refusal:
@@ -131,7 +141,7 @@ def _decode_write(
 def encode_reply(request: Request, values: Sequence[int] = ()) -> bytes:
     """PDU that grants a request; `values` are the registers or bits of a read."""
     if not isinstance(request, Read):
-        return SHORT.pack(request.function, request.address, _word(request))
+        return _head(request)
     octets = reply_octets(request) - 2
     head = bytes((request.function, octets))
     if not request.table.of_bits:
@@ -145,14 +155,15 @@ def encode_refusal(function: int, refusal: Refusal) -> bytes:
     return bytes((function | EXCEPTION, refusal))
 
 
-def _word(request: Request) -> int:
-    """What stands behind the address: a count, a value or a coil's state."""
+def _head(request: Request) -> bytes:
+    """Function, address, and a count, a value or a coil's state."""
     if isinstance(request, Read):
-        return request.count
+        return SHORT.pack(request.table, request.address, request.count)
     if isinstance(request, WriteCoil):
-        return ON if request.on else OFF
-    values = request.values
-    return values[0] if request.function == WRITE_REGISTER else len(values)
+        return SHORT.pack(WRITE_COIL, request.address, ON if request.on else OFF)
+    function, values = request.function, request.values
+    word = values[0] if function == WRITE_REGISTER else len(values)
+    return SHORT.pack(function, request.address, word)
 
 
 def _refused(request: Request, code: int) -> DeviceRefused:

@@ -2,7 +2,6 @@
 
 import asyncio
 import os
-import shutil
 import termios
 import time
 import tty
@@ -26,6 +25,7 @@ from gripperd.drivers.bus import RtuAddress, open_bus
 from gripperd.errors import InputError, Refused
 from gripperd.protocol.modbus import Read, Table, Write
 from gripperd.protocol.rtu import crc
+from tests.interop.programs import needed
 
 from .line import PATIENT, SOON, fitted
 
@@ -97,9 +97,7 @@ async def test_pymodbus_writes_and_reads(rig: Rig, tmp_path: Path) -> None:
 
 
 async def test_mbpoll_writes_and_reads(rig: Rig, tmp_path: Path) -> None:
-    program = shutil.which("mbpoll")
-    if program is None:
-        pytest.skip("mbpoll is not installed (apt-get install mbpoll)")
+    program = needed("mbpoll")
 
     async def mbpoll(*more: str) -> str:
         line = ("-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-0", "-r", "0")
@@ -224,6 +222,44 @@ async def test_the_link_goes_with_the_bench_and_a_dead_one_is_replaced(
         assert bench.address == str(path)
         assert path.is_char_device()
     assert not path.is_symlink()
+
+
+def end_of(link: Path) -> Path:
+    return link.readlink()
+
+
+async def is_left_alone(link: Path, rig: Rig) -> None:
+    end = end_of(link)
+    with pytest.raises(Refused, match=f"{link} is in the way: a link to {end}"):
+        async with rtu(rig, link):
+            pass
+    assert end_of(link) == end
+
+
+async def test_a_link_to_something_else_is_left_alone(rig: Rig, tmp_path: Path) -> None:
+    path = tmp_path / "line"
+    path.symlink_to(tmp_path / "disk that is not mounted")
+    await is_left_alone(path, rig)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a link away")
+async def test_a_dead_link_of_another_user_is_left_alone(
+    rig: Rig, tmp_path: Path
+) -> None:
+    path = tmp_path / "line"
+    path.symlink_to("/dev/pts/nobody")
+    os.lchown(path, 65534, 65534)
+    await is_left_alone(path, rig)
+
+
+async def test_what_was_put_in_place_of_the_link_outlives_the_bench(
+    rig: Rig, tmp_path: Path
+) -> None:
+    path = tmp_path / "line"
+    async with rtu(rig, path):
+        path.unlink()
+        path.write_text("precious")
+    assert path.read_text() == "precious"
 
 
 async def test_what_is_no_port_is_left_alone(rig: Rig, tmp_path: Path) -> None:

@@ -1,5 +1,4 @@
 import asyncio
-import shutil
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import pairwise
@@ -15,6 +14,7 @@ from gripperd.bench.server import BenchServer
 from gripperd.drivers.bus import TcpAddress, open_bus
 from gripperd.protocol.mbap import ModbusTcp
 from gripperd.protocol.modbus import Write
+from tests.interop.programs import needed
 
 SOON = 10.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
@@ -38,14 +38,11 @@ async def elsewhere(
 
 async def mbpoll(bench: BenchServer, value: int | None = None) -> tuple[int, str]:
     """Let libmodbus read two holding registers, or write the first of them."""
-    program = shutil.which("mbpoll")
-    if program is None:
-        pytest.skip("mbpoll is not installed (apt-get install mbpoll)")
     host, _, port = bench.address.rpartition(":")
     options = ["-m", "tcp", "-p", port, "-a", "1", "-0", "-r", "0", "-t", "4", "-1"]
     what = [host, str(value)] if value is not None else ["-c", "2", host]
     process = await asyncio.create_subprocess_exec(
-        program,
+        needed("mbpoll"),
         *options,
         *what,
         stdout=asyncio.subprocess.PIPE,

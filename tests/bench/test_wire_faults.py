@@ -118,6 +118,16 @@ MODBUS: list[tuple[WireFaultKind, Read | Write, type[LinkError]]] = [
 ]
 
 
+async def is_not_believed(
+    line: OnLine, fault: WireFaultKind, request: object, error: type[LinkError]
+) -> None:
+    """A fault befalls a request, and the bus is up again soon."""
+    line.bench.faults.set([WireFault(kind=fault, delay=1.5 * PATIENCE)])
+    with pytest.raises(error):
+        await line.bus.ask(request)
+    await line.bus.up.wait()
+
+
 async def modbus_is_sound_again(line: OnLine) -> None:
     await line.bus.up.wait()
     assert await line.bus.ask(Write(1, 3, (5000,))) == (5000,)
@@ -136,9 +146,7 @@ async def test_modbus_is_spoilt_once_and_the_driver_notices(
 ) -> None:
     async with on_line(kind, rig, tmp_path, "waveshare_ao_8ch") as line:
         assert len(await line.bus.ask(HOLDING)) == 4
-        line.bench.faults.set([WireFault(kind=fault, delay=1.5 * PATIENCE)])
-        with pytest.raises(error):
-            await line.bus.ask(request_)
+        await is_not_believed(line, fault, request_, error)
         await modbus_is_sound_again(line)
         # The module has obeyed all the same.
         driven = 10.7e-3 if request_ is SET else 0.0
@@ -196,10 +204,7 @@ async def test_dcon_is_spoilt_once_and_the_driver_notices(
     error: type[LinkError],
 ) -> None:
     async with on_line("dcon", rig, tmp_path, "icpdas_i_7024") as line:
-        line.bench.faults.set([WireFault(kind=fault, delay=1.5 * PATIENCE)])
-        with pytest.raises(error):
-            await line.bus.ask(request_)
-        await line.bus.up.wait()
+        await is_not_believed(line, fault, request_, error)
         await line.bus.ask(dcon.Ask(1, "1", dcon.Lead.HOST, dcon.Good.ADDRESS))
         assert await line.bus.ask(SET_TEXT) == ""
         assert await line.bus.ask(READ_BACK) == "+10.700"
@@ -228,10 +233,7 @@ async def test_a_regulator_is_spoilt_once_and_the_driver_notices(
     error: type[LinkError],
 ) -> None:
     async with on_line("itv", rig, tmp_path, "smc_itv_rc") as line:
-        line.bench.faults.set([WireFault(kind=fault, delay=1.5 * PATIENCE)])
-        with pytest.raises(error):
-            await line.bus.ask(request_)
-        await line.bus.up.wait()
+        await is_not_believed(line, fault, request_, error)
         assert await line.bus.ask(itv.Set(512)) == 512
         assert await line.bus.ask(itv.Query.SET_POINT) == 512
 

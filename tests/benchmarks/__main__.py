@@ -4,8 +4,10 @@ Each figure stands beside its yardstick, measured in the same run on the same ma
 ratios count, absolute times do not.
 """
 
+import logging
 import sys
 
+import structlog
 from rich.console import Console
 
 from tests.benchmarks import (
@@ -37,6 +39,9 @@ CHAPTERS = {
 
 def main() -> None:
     console = Console(width=140)
+    # Every bus, state and command is logged, which would drown the tables.
+    quiet = structlog.make_filtering_bound_logger(logging.CRITICAL)
+    structlog.configure(wrapper_class=quiet)
     for name in sys.argv[1:] or CHAPTERS:
         console.print(CHAPTERS[name].table())
 

@@ -4,11 +4,9 @@ The time-outs are those of the shipped settings. Writes are counted at the far e
 the cut until commands are taken again.
 """
 
-import logging
 import tempfile
 from pathlib import Path
 
-import structlog
 import uvloop
 from rich.console import Group
 from rich.table import Table
@@ -88,9 +86,6 @@ def _stops(folder: Path) -> Table:
 
 
 def table() -> Group:
-    # Every state and command is logged, which would drown the table.
-    quiet = structlog.make_filtering_bound_logger(logging.CRITICAL)
-    structlog.configure(wrapper_class=quiet)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         return Group(_outages(folder), _stops(folder))

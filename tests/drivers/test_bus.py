@@ -271,4 +271,4 @@ async def test_a_wire_that_was_just_lost_says_so() -> None:
         async with asyncio.timeout(SOON):
             await line.closed.wait()
         with pytest.raises(LinkLost):
-            await line.send(write(1), b"", SHORT)
+            await line.send(write(1), b"")

@@ -60,28 +60,18 @@ async def test_an_urgent_request_passes_fifty_that_wait() -> None:
         assert values == [0, 901, 902, *range(1, 51)]
 
 
-async def test_a_turn_given_to_one_who_has_just_left_goes_to_the_next() -> None:
+@pytest.mark.parametrize("given", ["before", "after"])
+async def test_the_turn_of_one_who_is_leaving_goes_to_the_next(given: str) -> None:
     turns = Turns()
-    await turns.take(urgent=False)
-    leaving = asyncio.create_task(turns.take(urgent=False))
-    staying = asyncio.create_task(turns.take(urgent=False))
+    assert turns.take()
+    leaving = asyncio.create_task(turns.wait(urgent=False))
+    staying = asyncio.create_task(turns.wait(urgent=False))
     await asyncio.sleep(0)
+    if given == "before":
+        turns.give()
     leaving.cancel()
-    turns.give()
-    with pytest.raises(asyncio.CancelledError):
-        await leaving
-    async with asyncio.timeout(SOON):
-        await staying
-
-
-async def test_a_turn_that_came_too_late_is_passed_on() -> None:
-    turns = Turns()
-    await turns.take(urgent=False)
-    leaving = asyncio.create_task(turns.take(urgent=False))
-    staying = asyncio.create_task(turns.take(urgent=False))
-    await asyncio.sleep(0)
-    turns.give()
-    leaving.cancel()
+    if given == "after":
+        turns.give()
     with pytest.raises(asyncio.CancelledError):
         await leaving
     async with asyncio.timeout(SOON):

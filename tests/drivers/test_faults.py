@@ -1,6 +1,7 @@
 """Everything that goes wrong on a line, on either kind of line."""
 
 import asyncio
+import re
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 
 from gripperd.drivers.bus import Exchange, ModbusBus, TcpAddress
 from gripperd.errors import BadReply, DeviceRefused, LinkError, LinkLost, ReplyTimeout
-from gripperd.protocol.modbus import Read, Table
+from gripperd.protocol.modbus import Read, Table, Write
 
 from .far_end import (
     PATIENCE,
@@ -55,13 +56,17 @@ async def sound_again(bus: ModbusBus) -> None:
     assert await bus.ask(write(10_700)) == (10_700,)
 
 
+async def has_no_reply(bus: ModbusBus, far: FarEnd, request: Read | Write) -> None:
+    far.behave = once(dead)
+    with pytest.raises(ReplyTimeout, match=f"100 ms: {re.escape(str(request))}"):
+        await bus.ask(request)
+
+
 async def test_a_late_read_does_not_answer_the_next_read(
     line: tuple[ModbusBus, FarEnd],
 ) -> None:
     bus, far = line
-    far.behave = once(dead)
-    with pytest.raises(ReplyTimeout, match="100 ms: read 1 holding"):
-        await bus.ask(read(0))
+    await has_no_reply(bus, far, read(0))
     honest(far, far.asked[0])
     await up(bus)
     assert await bus.ask(read(100)) == (1100,)
@@ -71,9 +76,7 @@ async def test_a_late_echo_does_not_answer_a_read(
     line: tuple[ModbusBus, FarEnd],
 ) -> None:
     bus, far = line
-    far.behave = once(dead)
-    with pytest.raises(ReplyTimeout):
-        await bus.ask(write(10_700))
+    await has_no_reply(bus, far, write(10_700))
     honest(far, far.asked[0])
     await up(bus)
     assert await bus.ask(Read(1, Table.INPUT, 100)) == (1100,)
@@ -83,9 +86,7 @@ async def test_an_echo_later_than_any_silence_does_not_answer_a_read(
     line: tuple[ModbusBus, FarEnd],
 ) -> None:
     bus, far = line
-    far.behave = once(dead)
-    with pytest.raises(ReplyTimeout):
-        await bus.ask(write(10_700))
+    await has_no_reply(bus, far, write(10_700))
     await up(bus)
     far.behave = once(lambda far, _: honest(far, far.asked[0]))
     with pytest.raises(BadReply):

@@ -3,30 +3,22 @@
 import typer
 from rich.console import Console
 
+from tests.exam import options
 from tests.exam.answer import Answer, answered
-from tests.exam.options import (
-    Cases,
-    Family,
-    Jobs,
-    Results,
-    Seed,
-    chosen,
-    mixture,
-    solved,
-)
 from tests.exam.tables import confusion, errors, report
 
 
 def main(
-    cases: Cases = 200,
-    family: Family = "both",
-    jobs: Jobs = 2,
-    seed: Seed = 1,
-    results: Results = None,
+    cases: options.Cases = 200,
+    family: options.Family = "both",
+    jobs: options.Jobs = 2,
+    seed: options.Seed = 1,
+    results: options.Results = None,
 ) -> None:
     """Diagnose seeded cases in which something is hidden, and mark the answers."""
-    families = chosen(family)
-    answers = solved(answered, Answer, mixture(families, cases, seed), jobs, results)
+    families = options.chosen(family)
+    asked = options.mixture(families, cases, seed)
+    answers = options.solved(answered, Answer, asked, jobs, results)
     console = Console(width=110)
     console.print(confusion(answers))
     for name in families:

@@ -5,6 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tests.hidden_rig.compiled import compiled
+
 Array = NDArray[np.float64]
 
 STEP = 0.01
@@ -56,6 +58,20 @@ class Point(NamedTuple):
     supply: float
     clock: float
     run: int
+
+
+@compiled
+def shortened(here: Point, contraction: float) -> Point:
+    """The same instant of a muscle that has contracted further."""
+    return Point(
+        here.pressure,
+        here.contraction + contraction,
+        here.rate,
+        here.temperature,
+        here.supply,
+        here.clock,
+        here.run,
+    )
 
 
 # Where each memory of the muscle stands in the row of memories.

@@ -23,6 +23,7 @@ from tests.hidden_rig.course import (
     STRAINS,
     Array,
     Point,
+    shortened,
 )
 from tests.hidden_rig.hidden import Hidden
 from tests.hidden_rig.outside import outside_force
@@ -138,15 +139,7 @@ def pull(rig: Rig, hidden: Hidden, old: Array, new: Array, here: Point) -> float
     # Tendon and frame give way, with a toe, so the muscle is shorter than the rig.
     load = max(old[FORCE], 0.0) / 1000.0
     shorter = hidden.series_compliance * (load + 0.3 * (1 - math.exp(-load / 0.2)))
-    inside = Point(
-        here.pressure,
-        here.contraction + shorter,
-        here.rate,
-        here.temperature,
-        here.supply,
-        here.clock,
-        here.run,
-    )
+    inside = shortened(here, shorter)
     elastic = ideal(rig, hidden, inside.pressure, inside.contraction)
     elastic -= rubber(rig, hidden, inside.contraction, inside.temperature)
     force = elastic * ageing(hidden, old, new, inside)

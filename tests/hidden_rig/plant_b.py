@@ -22,6 +22,7 @@ from tests.hidden_rig.course import (
     STRAINS,
     Array,
     Point,
+    shortened,
 )
 from tests.hidden_rig.hidden import Hidden
 from tests.hidden_rig.outside import outside_force
@@ -142,15 +143,7 @@ def pull(rig: Rig, hidden: Hidden, old: Array, new: Array, here: Point) -> float
     """Signed force of the muscle; leaves its memories in ``new``. [N]."""
     # A rope's extension: steep at first, stiffer under load.
     load = max(old[FORCE], 0.0) / 1000.0
-    inside = Point(
-        here.pressure,
-        here.contraction + hidden.series_compliance * load**0.75,
-        here.rate,
-        here.temperature,
-        here.supply,
-        here.clock,
-        here.run,
-    )
+    inside = shortened(here, hidden.series_compliance * load**0.75)
     force = ideal(rig, hidden, inside.pressure, inside.contraction)
     force -= rubber(rig, hidden, inside.contraction, inside.temperature)
     force *= ageing(hidden, old, new, inside)

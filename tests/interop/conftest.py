@@ -11,7 +11,7 @@ import pytest
 from gripperd.drivers.bus import ModbusBus, RtuAddress, TcpAddress, open_bus
 from gripperd.protocol.modbus import Read, Table
 
-from .programs import PATIENCE, cable, compiled, free_port, running
+from .programs import PATIENCE, cable, compiled, free_port, needed, running
 
 HERE = Path(__file__).parent
 NODE = HERE / "node"
@@ -70,8 +70,7 @@ def libmodbus_server(libmodbus: Callable[[Path], Path]) -> tuple[str, ...]:
 
 @pytest.fixture(scope="session")
 def socat() -> None:
-    if shutil.which("socat") is None:
-        pytest.skip("no socat (apt-get install socat)")
+    needed("socat")
 
 
 @pytest.fixture(scope="module", params=[*OVER_TCP, *OVER_RTU])

@@ -8,9 +8,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
+
 HEADERS = Path("/usr/include/modbus")
 PATIENCE = 20.0
 """Longest wait for a program to start; none takes this long. [s]"""
+
+
+def needed(program: str) -> str:
+    """Where a program is that its package is named after; without it, skip the test."""
+    found = shutil.which(program)
+    if found is None:
+        pytest.skip(f"{program} is not installed (apt-get install {program})")
+    return found
 
 
 def compiled(source: Path, folder: Path) -> Path | None:

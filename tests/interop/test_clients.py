@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-import shutil
 from collections import Counter
 from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass, replace
@@ -18,7 +17,7 @@ from gripperd.bench.server import serve_bench
 from gripperd.config.module_library import ModuleLibrary
 
 from .conftest import BAUD
-from .programs import cable
+from .programs import cable, needed
 
 OUTPUT_UNIT, INPUT_UNIT, NO_UNIT = 1, 2, 9
 PLACES = 99
@@ -101,12 +100,9 @@ async def polled(
     line: Line, unit: int, table: str, *values: str, start: int = 0
 ) -> tuple[int, str]:
     """Let mbpoll read three registers, or write; 3: input, 4: holding, 0: coils."""
-    program = shutil.which("mbpoll")
-    if program is None:
-        pytest.skip("no mbpoll (apt-get install mbpoll)")
     where = ("-a", str(unit), "-0", "-r", str(start), "-t", table, "-o", "10")
     what = (line.place, *values) if values else ("-c", "3", line.place)
-    return await said(program, *line.mbpoll, *where, "-1", "-q", *what)
+    return await said(needed("mbpoll"), *line.mbpoll, *where, "-1", "-q", *what)
 
 
 def registers(text: str) -> list[int]:

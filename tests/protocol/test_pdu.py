@@ -100,71 +100,61 @@ def test_examples_of_the_specification_in_both_directions(
     assert reply_octets(request_) == len(octets(answered))
 
 
-@pytest.mark.parametrize(
-    "lie",
-    [
-        pytest.param("03 02 29 cc", id="other function"),
-        pytest.param("10 00 00 00 01", id="function 16"),
-        pytest.param("06 00 00 29 cd", id="other value"),
-        pytest.param("06 00 01 29 cc", id="other address"),
-        pytest.param("06 00 00 29", id="short"),
-        pytest.param("06", id="function only"),
-        pytest.param("", id="nothing"),
-        pytest.param("06 00 00 29 cc 00", id="long"),
-        pytest.param("86", id="exception without a code"),
-        pytest.param("86 02 00", id="long exception"),
-        pytest.param("83 02", id="exception to another function"),
-    ],
-)
-def test_a_lie_about_a_write_is_not_believed(lie: str) -> None:
-    with pytest.raises(BadReply, match="not believed"):
-        decode_reply(WRITE, octets(lie))
+FUNCTION = "it answers another function"
+LENGTH = "it has another length"
+COUNT = "its byte count is wrong"
+ECHO = "its echo differs"
+SEVERAL = Write(1, 1, (10, 258))
+COIL = WriteCoil(1, 0xAC, on=True)
+
+LIES = [
+    (WRITE, "03 02 29 cc", FUNCTION),
+    (WRITE, "10 00 00 00 01", FUNCTION),
+    (WRITE, "06 00 00 29 cd", ECHO),
+    (WRITE, "06 00 01 29 cc", ECHO),
+    (WRITE, "06 00 00 29", LENGTH),
+    (WRITE, "06 00 00 29 cc 00", LENGTH),
+    (WRITE, "06", LENGTH),
+    (WRITE, "", FUNCTION),
+    # Exceptions without a code, with two, and to another function.
+    (WRITE, "86", FUNCTION),
+    (WRITE, "86 02 00", FUNCTION),
+    (WRITE, "83 02", FUNCTION),
+    (SEVERAL, "10 00 01 00 03", ECHO),
+    (SEVERAL, "10 00 02 00 02", ECHO),
+    (SEVERAL, "10 00 01 00 02 04", LENGTH),
+    (SEVERAL, "10 00 01", LENGTH),
+    (COIL, "05 00 ac 00 00", ECHO),
+    (COIL, "05 00 ad ff 00", ECHO),
+    (COIL, "05 00 ac 00 01", ECHO),
+    # Another table, one register of three, four, and the echo of a write.
+    (READ, "04 06 02 2b 00 00 00 64", FUNCTION),
+    (READ, "03 02 02 2b", LENGTH),
+    (READ, "03 08 02 2b 00 00 00 64 00 00", LENGTH),
+    (READ, "06 00 6b 00 03", FUNCTION),
+    (READ, "03 06 02 2b 00 00 00", LENGTH),
+    (READ, "03 06 02 2b 00 00 00 64 00", LENGTH),
+    (READ, "03 04 02 2b 00 00 00 64", COUNT),
+    (READ, "03 08 02 2b 00 00 00 64", COUNT),
+    (READ, "03 00", LENGTH),
+    (READ, "03", LENGTH),
+    (BITS, "01 02 cd 6b", LENGTH),
+    (BITS, "01 04 cd 6b 05 00", LENGTH),
+    (BITS, "01 02 cd 6b 05", COUNT),
+    (BITS, "02 03 cd 6b 05", FUNCTION),
+]
 
 
-@pytest.mark.parametrize(
-    "lie",
-    [
-        pytest.param("04 06 02 2b 00 00 00 64", id="other table"),
-        pytest.param("03 02 02 2b", id="one register of three"),
-        pytest.param("03 08 02 2b 00 00 00 64 00 00", id="four registers"),
-        pytest.param("03 06 02 2b 00 00 00", id="short"),
-        pytest.param("03 06 02 2b 00 00 00 64 00", id="long"),
-        pytest.param("03 04 02 2b 00 00 00 64", id="byte count too low"),
-        pytest.param("03 08 02 2b 00 00 00 64", id="byte count too high"),
-        pytest.param("03 00", id="no register"),
-        pytest.param("03", id="function only"),
-        pytest.param("06 00 6b 00 03", id="a write echo"),
-    ],
-)
-def test_a_lie_about_a_read_is_not_believed(lie: str) -> None:
-    with pytest.raises(BadReply, match="not believed"):
-        decode_reply(READ, octets(lie))
-
-
-@pytest.mark.parametrize(
-    "lie", ["01 02 cd 6b", "01 04 cd 6b 05 00", "01 02 cd 6b 05", "02 03 cd 6b 05"]
-)
-def test_a_lie_about_bits_is_not_believed(lie: str) -> None:
-    with pytest.raises(BadReply, match="not believed"):
-        decode_reply(BITS, octets(lie))
+@pytest.mark.parametrize(("request_", "lie", "why"), LIES)
+def test_a_lie_is_not_believed_and_what_is_wrong_with_it_is_said(
+    request_: Request, lie: str, why: str
+) -> None:
+    with pytest.raises(BadReply, match=f"not believed: {why}"):
+        decode_reply(request_, octets(lie))
 
 
 def test_what_pads_the_last_bits_says_nothing() -> None:
     assert decode_reply(Read(1, Table.COILS, 0, 2), octets("01 01 fe")) == (0, 1)
-
-
-@pytest.mark.parametrize(
-    "lie", ["10 00 01 00 03", "10 00 02 00 02", "10 00 01 00 02 04", "10 00 01"]
-)
-def test_a_lie_about_a_write_of_several_is_not_believed(lie: str) -> None:
-    with pytest.raises(BadReply, match="not believed"):
-        decode_reply(Write(1, 1, (10, 258)), octets(lie))
-
-
-@pytest.mark.parametrize("lie", ["05 00 ac 00 00", "05 00 ad ff 00", "05 00 ac 00 01"])
-def test_a_lie_about_a_coil_is_not_believed(lie: str) -> None:
-    with pytest.raises(BadReply, match="its echo differs"):
-        decode_reply(WriteCoil(1, 0xAC, on=True), octets(lie))
 
 
 @pytest.mark.parametrize(

@@ -3,30 +3,22 @@
 import typer
 from rich.console import Console
 
-from tests.exam.options import (
-    Cases,
-    Family,
-    Jobs,
-    Results,
-    Seed,
-    chosen,
-    mixture,
-    solved,
-)
+from tests.exam import options
 from tests.exam.peers.contest import Outcome, contested
 from tests.exam.peers.scores import side_by_side
 
 
 def main(
-    cases: Cases = 100,
-    family: Family = "both",
-    jobs: Jobs = 2,
-    seed: Seed = 1,
-    results: Results = None,
+    cases: options.Cases = 100,
+    family: options.Family = "both",
+    jobs: options.Jobs = 2,
+    seed: options.Seed = 1,
+    results: options.Results = None,
 ) -> None:
     """Show seeded cases to every method and compare what they say."""
-    families = chosen(family)
-    outcomes = solved(contested, Outcome, mixture(families, cases, seed), jobs, results)
+    families = options.chosen(family)
+    asked = options.mixture(families, cases, seed)
+    outcomes = options.solved(contested, Outcome, asked, jobs, results)
     console = Console(width=120)
     console.print(side_by_side(outcomes))
     for name in families:
