@@ -45,6 +45,7 @@ def with_overstepped(
     if most <= LEAST_MORE:
         return best
     kin = [one for one in freed if one.evidence - here.evidence > KIN * most]
+    kin.sort(key=lambda rival: -rival.evidence)
     told = next((one for one in kin if BORE in one.names), kin[0])
     return Contest(
         told,

@@ -15,6 +15,7 @@ ALIKE = 1.25
 """Misfit over the least of any rival up to which, far above the noise, a difference
 says only that neither formula is that of nature. [-]"""
 BORE = WRONG + "muscle.diameter"
+"""The constant that is wrong first: nobody states the diameter of a braid."""
 HELD = 0.999
 """Share of a limit from which a number is held back by it. [-]"""
 
@@ -22,9 +23,9 @@ HELD = 0.999
 def preferred(problem: Problem, rivals: Sequence[Rival]) -> Rival:
     """Give the likeliest; far above the noise the soundest of those that fit alike.
 
-    Sound is what no limit of physics holds back. Of constants and
-    factors that stand in for each other the bore is told: a catalogue has that of the
-    bladder, not of the braid.
+    Sound is what no limit of physics holds back. Of constants and factors that stand in
+    for each other the bore is told: a catalogue has that of the bladder, not of the
+    braid.
 
     Parameters
     ----------
@@ -45,9 +46,9 @@ def preferred(problem: Problem, rivals: Sequence[Rival]) -> Rival:
 def _has_bore_instead(rival: Rival, other: Rival) -> bool:
     """Whether but the bore stands where the other has a constant, or a mere factor."""
     instead = [one for one in other.candidates if one.name not in rival.names]
-    return BORE in rival.names and [
-        one.effect is None or is_exact(one) for one in instead
-    ] == [True]
+    if BORE not in rival.names or len(instead) != 1:
+        return False
+    return instead[0].effect is None or is_exact(instead[0])
 
 
 def strained(problem: Problem, rival: Rival) -> bool:
