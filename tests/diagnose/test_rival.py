@@ -10,39 +10,25 @@ from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
-from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
-from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
+from tests.diagnose.searched import searched
 from tests.diagnose.small import (
     MODEL,
-    Hidden,
     covariance,
-    pinned,
     recording,
     threshold,
 )
 
-LISTED = (
-    Candidate("threshold_pressure", ThresholdPressure(pressure=20e3)),
-    Candidate("coulomb_friction", CoulombFriction(magnitude=20.0)),
-    Candidate("force_sensor_bias", ForceSensorBias(bias=5.0)),
-)
-OPEN = ("muscle.diameter", "muscle.elastic_modulus", "zero.force")
 INERT = Constant("gripper.open_width", 0.085, 1e-3, stated=False)
 """Of a part that this rig has not: it changes nothing."""
 
 
-def _found(hidden: Hidden, seed: int = 0) -> Found:
-    problem = pinned(problem_of(recording(hidden), MODEL, {}), *OPEN)
-    return search(problem, LISTED, np.random.default_rng(seed))
-
-
 @pytest.fixture(scope="module")
 def late() -> Found:
-    return _found(threshold(25.0))
+    return searched(threshold(25.0))
 
 
 def test_the_evidence_of_an_amplitude_is_its_marginal_likelihood() -> None:

@@ -1,36 +1,16 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.found import Found
-from gripperd.diagnose.search import search
-from gripperd.diagnose.setup import problem_of
-from gripperd.effects.coulomb_friction import CoulombFriction
-from gripperd.effects.force_sensor_bias import ForceSensorBias
-from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.track import Array
+from tests.diagnose.searched import searched
 from tests.diagnose.small import (
-    MODEL,
     Hidden,
     Moment,
     nothing,
-    pinned,
-    recording,
     rubbing,
     threshold,
 )
-
-LISTED = (
-    Candidate("threshold_pressure", ThresholdPressure(pressure=20e3)),
-    Candidate("coulomb_friction", CoulombFriction(magnitude=20.0)),
-    Candidate("force_sensor_bias", ForceSensorBias(bias=5.0)),
-)
-OPEN = ("muscle.diameter", "muscle.elastic_modulus", "zero.force")
-
-
-def _found(hidden: Hidden, seed: int = 0) -> Found:
-    problem = pinned(problem_of(recording(hidden), MODEL, {}), *OPEN)
-    return search(problem, LISTED, np.random.default_rng(seed))
 
 
 def _both(moment: Moment) -> Array:
@@ -39,11 +19,11 @@ def _both(moment: Moment) -> Array:
 
 @pytest.fixture(scope="module")
 def late() -> Found:
-    return _found(threshold(25.0))
+    return searched(threshold(25.0))
 
 
-def test_where_nothing_is_hidden_nothing_is_found() -> None:
-    found = _found(nothing)
+def test_where_nothing_is_hidden_nothing_issearched() -> None:
+    found = searched(nothing)
     assert found.best is found.null
     assert found.best.names == ()
     assert max(found.gains.values()) < found.threshold
@@ -57,8 +37,8 @@ def test_where_nothing_is_hidden_nothing_is_found() -> None:
         pytest.param(_both, {"threshold_pressure", "coulomb_friction"}, id="two"),
     ],
 )
-def test_what_is_hidden_is_found(hidden: Hidden, names: set[str]) -> None:
-    assert set(_found(hidden).best.names) == names
+def test_what_is_hidden_issearched(hidden: Hidden, names: set[str]) -> None:
+    assert set(searched(hidden).best.names) == names
 
 
 def test_the_best_has_paid_its_price(late: Found) -> None:
@@ -79,7 +59,7 @@ def test_noise_alone_rarely_gains_the_threshold(late: Found) -> None:
 
 
 def test_the_same_seed_finds_the_same(late: Found) -> None:
-    again = _found(threshold(25.0))
+    again = searched(threshold(25.0))
     np.testing.assert_array_equal(again.nulls, late.nulls)
     np.testing.assert_array_equal(
         again.best.fit.point.shifts, late.best.fit.point.shifts
@@ -89,6 +69,6 @@ def test_the_same_seed_finds_the_same(late: Found) -> None:
 
 
 def test_another_seed_draws_other_recordings(late: Found) -> None:
-    other = _found(threshold(25.0), seed=1)
+    other = searched(threshold(25.0), seed=1)
     assert not np.array_equal(other.nulls, late.nulls)
     assert other.best.names == late.best.names
