@@ -5,14 +5,11 @@ from collections.abc import Sequence
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.preference import BORE
+from gripperd.diagnose.preference import BORE, at_edge
 from gripperd.diagnose.price import LEAST_MORE
-from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import Contest
 
-EDGE = 0.999
-"""Share of its reach from which a constant stays at the edge. [-]"""
 KIN = 0.5
 """Share of the gain from which another constant could be the wrong one. [-]"""
 
@@ -39,7 +36,7 @@ def with_overstepped(
     freed = [
         Rival((*here.candidates, one), polished(problem, added(here.fit.point, one)))
         for one in listed
-        if one.constant is not None and _at_edge(problem, here, one.constant)
+        if one.name in at_edge(problem, here)
     ]
     most = max((one.evidence - here.evidence for one in freed), default=0.0)
     if most <= LEAST_MORE:
@@ -52,9 +49,3 @@ def with_overstepped(
         (*best.without, here),
         (*best.rivals, tuple(rival for rival in kin if rival is not told)),
     )
-
-
-def _at_edge(problem: Problem, rival: Rival, index: int) -> bool:
-    constant = problem.constants[index]
-    shift = float(rival.fit.point.shifts[index])
-    return constant.path.startswith("muscle.") and abs(shift) > EDGE * constant.reach

@@ -16,6 +16,9 @@ ALIKE = 1.25
 says only that neither formula is that of nature. [-]"""
 BORE = WRONG + "muscle.diameter"
 """The constant that is wrong first: nobody states the diameter of a braid."""
+AMPLE = 1.6
+"""The same against a formula that leaves the bore at the edge of its tolerance: of
+several numbers, it bends to more than the bore does. [-]"""
 HELD = 0.999
 """Share of a limit from which a number is held back by it. [-]"""
 
@@ -25,7 +28,8 @@ def preferred(problem: Problem, rivals: Sequence[Rival]) -> Rival:
 
     Sound is what no limit of physics holds back. Of constants and factors that stand in
     for each other the bore is told: a catalogue has that of the bladder, not of the
-    braid.
+    braid. For the same reason it is told before a formula that the bore, held at the
+    edge of its tolerance, could replace.
 
     Parameters
     ----------
@@ -40,15 +44,29 @@ def preferred(problem: Problem, rivals: Sequence[Rival]) -> Rival:
     alike = [one for one in rivals if one.fit.cost <= ALIKE * best.fit.cost]
     sound = [one for one in alike if not strained(problem, one)] or [best]
     top = max(sound, key=lambda rival: rival.evidence)
-    return next((one for one in sound if _has_bore_instead(one, top)), top)
+    bored = [one for one in rivals if _has_bore_instead(problem, one, top)]
+    return max(bored, key=lambda rival: rival.evidence, default=top)
 
 
-def _has_bore_instead(rival: Rival, other: Rival) -> bool:
-    """Whether but the bore stands where the other has a constant, or a mere factor."""
+def _has_bore_instead(problem: Problem, rival: Rival, other: Rival) -> bool:
+    """Whether but the bore stands where the other has something it could replace."""
     instead = [one for one in other.candidates if one.name not in rival.names]
-    if BORE not in rival.names or len(instead) != 1:
+    if BORE not in rival.names or len(instead) != 1 or strained(problem, rival):
         return False
-    return instead[0].effect is None or is_exact(instead[0])
+    if instead[0].effect is None or is_exact(instead[0]):
+        return rival.fit.cost <= ALIKE * other.fit.cost
+    return BORE in at_edge(problem, other) and rival.fit.cost <= AMPLE * other.fit.cost
+
+
+def at_edge(problem: Problem, rival: Rival) -> tuple[str, ...]:
+    """Names of the constants of the muscle that their tolerances hold back."""
+    point = rival.fit.point
+    held = np.abs(point.shifts / point.widths) > HELD * problem.reach(point)
+    return tuple(
+        WRONG + problem.constants[index].path
+        for index in np.flatnonzero(held)
+        if problem.constants[index].path.startswith("muscle.")
+    )
 
 
 def strained(problem: Problem, rival: Rival) -> bool:

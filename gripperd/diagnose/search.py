@@ -8,18 +8,18 @@ References
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.course import is_table
-from gripperd.diagnose.design import Design, Member, design
+from gripperd.diagnose.design import Member, design
+from gripperd.diagnose.finalists import finalists, heard, leaders
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.null import null_gains
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.preference import preferred
+from gripperd.diagnose.preference import BORE, at_edge, preferred
 from gripperd.diagnose.price import worth
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
@@ -34,7 +34,6 @@ MISFIT = 2.0
 HOPELESS = 150.0
 """The same of the null, from which no explanation can reach the noise. [-]"""
 COOLINGS = 3
-FINALISTS = 4
 NEXT = 2
 """Explanations that are fitted in full."""
 MOST = 4
@@ -105,8 +104,10 @@ def _pass(
     if problem.is_hot or max(gains.values(), default=0.0) > threshold:
         # A table has so few samples that every form can be fitted in full.
         thrifty = not is_table(problem.courses)
-        sets = _finalists(around, singles, base, thrifty=thrifty)
+        sets = finalists(problem, around, singles, thrifty=thrifty)
         rivals += [_fitted(problem, null.fit.point, members) for members in sets]
+        alone = [one for one in rivals if len(one.candidates) == 1]
+        rivals += _with_bore(problem, preferred(problem, alone), listed)
     best = _best(problem, null, rivals, threshold)
     rivals.sort(key=lambda rival: -rival.evidence)
     return Found(
@@ -122,38 +123,23 @@ def _by_name(singles: dict[Member, float]) -> dict[str, float]:
     return gains
 
 
-def _leaders(singles: dict[Member, float]) -> list[Member]:
-    """Best form of each kind, best first."""
-    leaders: dict[tuple[str, ...], Member] = {}
-    for member in sorted(singles, key=lambda one: -singles[one]):
-        leaders.setdefault(member.candidate.kind, member)
-    return list(leaders.values())
-
-
-def _finalists(
-    around: Design, singles: dict[Member, float], base: float, *, thrifty: bool
-) -> list[tuple[Member, ...]]:
-    """Best singles, or all of them, and best pairs by the linear fit."""
-    leaders = _leaders(singles)
-    # A threshold makes the linear rank of some unfair to them: known doubles of the
-    # leader are heard as well.
-    doubles = leaders[0].candidate.doubles
-    late = [one for one in leaders[FINALISTS:] if one.candidate.name in doubles]
-    alone = leaders[:FINALISTS] + late if thrifty else list(around.members)
-    sets: list[tuple[Member, ...]] = [(one,) for one in alone]
-    pairs = [
-        (around.fit(one, other).evidence, (one, other))
-        for one, other in combinations(leaders, 2)
-    ]
-    pairs.sort(key=lambda pair: -pair[0])
-    return sets + [members for _, members in pairs[:FINALISTS]]
-
-
 def _fitted(problem: Problem, start: Point, members: Sequence[Member]) -> Rival:
     point = start
     for member in members:
         point = added(point, member.candidate)
     return Rival(tuple(m.candidate for m in members), polished(problem, point))
+
+
+def _with_bore(
+    problem: Problem, rival: Rival, listed: Sequence[Candidate]
+) -> list[Rival]:
+    """Give it with another bore, if misfit counts and its tolerance holds that back."""
+    held = BORE in at_edge(problem, rival) and BORE not in rival.names
+    if not (problem.is_hot and held):
+        return []
+    bore = next(one for one in listed if one.name == BORE)
+    point = added(rival.fit.point, bore)
+    return [Rival((*rival.candidates, bore), polished(problem, point))]
 
 
 def _best(
@@ -184,9 +170,10 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
                 (*best.candidates, member.candidate),
                 polished(problem, added(best.fit.point, member.candidate)),
             )
-            for member in _leaders(singles)[:NEXT]
+            for (member,) in heard(problem, [(m,) for m in leaders(singles)], NEXT)
             if singles[member] > found.threshold
         ]
+        grown += _with_bore(problem, best, listed)
         tried += grown
         if not grown:
             break

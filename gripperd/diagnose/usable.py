@@ -17,6 +17,10 @@ NEIGHBOURS = 5
 OFF = 3.0
 """Standard deviations of a mean of neighbours from which a smooth column is off. [-]"""
 
+CORNER = 0.001
+"""Share of the largest reading up to which a cut corner does not matter: the error
+of good pressure transmitters. [-]"""
+
 LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
 
@@ -60,7 +64,9 @@ def _missed(course: Course, name: str) -> Mask:
         return np.zeros(len(course), dtype=bool)
     off = np.nan_to_num(course.column(name) - known.value)
     mean = uniform_filter1d(off, NEIGHBOURS, mode="nearest")
-    return _widened(np.abs(mean) > OFF * (known.variance / NEIGHBOURS) ** 0.5, 2)
+    sure = OFF * (known.variance / NEIGHBOURS) ** 0.5
+    least = CORNER * float(np.max(np.abs(known.value)))
+    return _widened(np.abs(mean) > max(sure, least), 2)
 
 
 def _turning(sign: Array) -> Mask:

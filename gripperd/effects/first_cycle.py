@@ -4,6 +4,9 @@ References
 ----------
 .. [1] L. Mullins, "Softening of rubber by deformation", Rubber Chem. Technol. 42(1),
        339-362, 1969.
+.. [2] R. W. Ogden, D. G. Roxburgh, "A pseudo-elastic model for the Mullins effect in
+       filled rubber", Proc. R. Soc. A 455(1988), 2861-2877, 1999: what was reached
+       once is softer ever after.
 """
 
 from dataclasses import dataclass
@@ -20,8 +23,9 @@ from gripperd.model.track import Array, Track
 class FirstCycle(InMuscle):
     r"""The pull of a first inflation differs by a share and by a force.
 
-    .. math:: F = F_0 + w (a F_0 + b)
+    .. math:: F = F_0 + w \left(1 - \frac{p_m - p}{d}\right)^+ (a F_0 + b)
 
+    with the highest pressure so far, p_m: rubber that has been there is soft already.
     What is first depends on what undoes the softening: with ``after = 0`` it never
     comes back, and ``w = 1`` in the first inflation of the recording alone; with
     ``after = 1`` a pause is enough, and ``w = 1`` in the first sweep of every row of
@@ -40,13 +44,23 @@ class FirstCycle(InMuscle):
 
     gain: float = amplitude(unit=None, scale=0.05, low=-0.5, high=0.5)
     """Share of the pull that the first has on top, a. [-]"""
-    offset: float = amplitude(unit="N", scale=10.0, low=-200.0, high=200.0)
+    offset: float = amplitude(unit="N", scale=10.0, low=-1e3, high=1e3)
     """Force that the first has on top, b. [N]"""
     after: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Whether the rest before a row of repeats makes its first sweep a first. [-]"""
+    fall: float = shape(unit="kPa", starts=(10e6, 50e3), low=5e3, high=10e6)
+    """Fall of pressure at which the first inflation is over, d; far above any pressure
+    its deflation counts as well. [Pa]"""
+
+    def rest(self) -> Array:
+        """Never inflated."""
+        return np.array([-np.inf])
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pull with what the first inflation has on top. [N]."""
+        reached = np.fmax.accumulate(np.fmax(track.pressure, memory))
+        memory[:] = reached[-1:]
+        left = np.maximum(1 - (reached - track.pressure) / self.fall, 0.0)
         ever = np.where(track.cycle < 1, 1 - self.after, 0.0)
         row = np.where(track.repeat == 0, self.after, 0.0)
-        return value + (ever + row) * (self.gain * value + self.offset)
+        return value + (ever + row) * left * (self.gain * value + self.offset)
