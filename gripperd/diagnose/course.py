@@ -2,18 +2,24 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from gripperd.diagnose.recording import Kind
 from gripperd.diagnose.smoothing import Smooth
+from gripperd.diagnose.travel import travel
 from gripperd.model.track import Array
 
 LEAP = 0.02
 """Share of the range between neighbours from which points are no sweep. [-]"""
 
+TURNED, LEAST_TURNED = 0.02, 3e3
+"""Pressure that must be undone before it counts as reversed: share of its range, and
+at least. [-, Pa]"""
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True)
 class Course:
     """One sweep without a pause; arrays of shape ``(n,)`` in SI, NaN not measured."""
 
@@ -37,12 +43,21 @@ class Course:
 
     def column(self, name: str) -> Array:
         """Measured column, NaN when there is none."""
-        missing = np.full_like(self.time, np.nan)
-        return self.measured.get(name, missing)
+        if name in self.measured:
+            return self.measured[name]
+        return np.full_like(self.time, np.nan)
 
     def level(self, name: str) -> Array:
         """Column without its noise where that was taken off."""
         return self.smooth[name].value if name in self.smooth else self.column(name)
+
+    @cached_property
+    def inflating(self) -> Array:
+        """Direction of the pressure, 0 before it moved or where it is not known. [-]"""
+        pressure = self.level("pressure")
+        if not np.isfinite(pressure).all():
+            return np.zeros_like(pressure)
+        return travel(pressure, max(TURNED * float(np.ptp(pressure)), LEAST_TURNED))
 
 
 def is_table(sweeps: Sequence[Course]) -> bool:

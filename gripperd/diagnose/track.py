@@ -6,7 +6,6 @@ import numpy as np
 
 from gripperd.diagnose.course import Course
 from gripperd.diagnose.explanation import AtRest, Explanation
-from gripperd.diagnose.travel import travel
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array, Track
 
@@ -89,9 +88,7 @@ def _contraction(explanation: Explanation, course: Course) -> Array:
 def directions(explanation: Explanation, course: Course, index: int) -> Array:
     """Direction of travel; before there was any, what is assumed of it. [-1..1]."""
     sign = explanation.rests.get(index, 1.0)
-    pressure = course.level("pressure")
     inflating = explanation.at_rest is AtRest.INFLATING
-    if inflating and not course.direction.any() and np.isfinite(pressure).all():
-        turning = travel(pressure, max(0.02 * float(np.ptp(pressure)), 3e3))
-        return np.where(turning == 0, sign, turning)
-    return np.where(course.direction == 0, sign, course.direction)
+    still = inflating and not course.direction.any()
+    known = course.inflating if still else course.direction
+    return np.where(known == 0, sign, known)
