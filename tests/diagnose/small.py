@@ -80,6 +80,11 @@ def rubbing(newtons: float) -> Hidden:
     return lambda moment: -newtons * moment.direction
 
 
+def restless(hidden: Hidden) -> Hidden:
+    """The same, and waves of 25 N that no library holds."""
+    return lambda moment: hidden(moment) + 25.0 * np.sin(moment.time)
+
+
 def moments() -> dict[str, Moment]:
     """The campaign: holds, isometric and isobaric sweeps, and one repeat."""
     plans: dict[str, tuple[float, Array, Array]] = {}
