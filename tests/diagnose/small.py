@@ -80,6 +80,11 @@ def rubbing(newtons: float) -> Hidden:
     return lambda moment: -newtons * moment.direction
 
 
+def restless(hidden: Hidden) -> Hidden:
+    """The same, and waves of 25 N that no library holds."""
+    return lambda moment: hidden(moment) + 25.0 * np.sin(moment.time)
+
+
 def moments() -> dict[str, Moment]:
     """The campaign: holds, isometric and isobaric sweeps, and one repeat."""
     plans: dict[str, tuple[float, Array, Array]] = {}
@@ -132,6 +137,26 @@ def recording(
         for place, (name, moment) in enumerate(moments().items())
     }
     return Recording("small", "0" * 64, tuple(_clocked(runs[n] for n in order or runs)))
+
+
+def tabled(hidden: Hidden) -> Recording:
+    """Settled points at six lengths, numbered for want of a clock."""
+    points = np.arange(40.0)
+    runs = []
+    for place, held in enumerate((0.0, 0.05, 0.1, 0.15, 0.2, 0.24)):
+        level = np.ones_like(points)
+        moment = Moment(100 * place + points, 500e3 * points / 39, held * level, level)
+        random = np.random.default_rng([SEED, place])
+        columns = {
+            "time": moment.time,
+            "pressure": moment.pressure,
+            "contraction": moment.contraction,
+            "force": textbook(moment)
+            + hidden(moment)
+            + random.normal(0.0, FORCE_NOISE, points.size),
+        }
+        runs.append(Run(str(held), columns))
+    return Recording("table", "0" * 64, tuple(runs))
 
 
 def with_jaws(plain: Recording, seed: int = SEED) -> Recording:

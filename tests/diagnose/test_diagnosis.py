@@ -25,8 +25,10 @@ from tests.diagnose.small import (
     MODEL,
     Moment,
     altered,
+    nothing,
     pinned,
     recording,
+    restless,
     threshold,
     with_jaws,
     without,
@@ -183,6 +185,47 @@ def test_what_nothing_explains_gets_a_correction_and_the_model_nothing() -> None
     assert offer.worth.without == pytest.approx(gap.recalibrated)
     assert gap.after == gap.recalibrated
     assert gap.ci95_after[0] < gap.after < gap.ci95_after[1]
+
+
+def test_a_name_that_sweeps_left_out_do_not_bear_out_is_withdrawn() -> None:
+    plain, late = (
+        without(recording(hidden), "current") for hidden in (nothing, threshold(25.0))
+    )
+    spared = split(problem_of(late, MODEL, {})).runs
+    runs = (
+        bare if bare.name in spared else run
+        for bare, run in zip(plain.runs, late.runs, strict=True)
+    )
+    told = _late(replace(late, runs=tuple(runs)))
+    assert told.held_out == spared
+    assert _names(told) == ["threshold_pressure"]
+    assert told.conclusion.share > 0.9
+    assert told.verdict is Verdict.UNEXPLAINED
+    assert told.gaps[Signal.FORCE].after == told.gaps[Signal.FORCE].recalibrated
+
+
+def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:
+    # Two sweeps where the line of a drift meets the step are left out and bear it out.
+    order = ("b", "c", "b2", "d", "vented", "a", "e", "f")
+    plain = without(recording(order=order), "current")
+    slipped = altered(plain, order[4:], "force", lambda force: force - 40.0)
+    drift = {"force_sensor_drift": EFFECTS["force_sensor_drift"]}
+    told = diagnose(slipped, MODEL, {}, drift)
+    assert _names(told) == ["force_sensor_drift"]
+    assert told.conclusion.share > 0.8
+    assert told.named[0].heldout_gain > 0.8
+    assert told.verdict is Verdict.UNEXPLAINED
+    assert any(word.startswith("force: jumps by -") for word in told.signature)
+
+
+def test_a_bore_that_its_tolerance_holds_back_is_told_beside_the_effect() -> None:
+    built = replace(MODEL, muscle=replace(MODEL.muscle, diameter=0.0208))
+    known = {"muscle.diameter": 1e-4, "muscle.braid_angle": 1.7e-3}
+    loud = without(recording(restless(threshold(60.0))), "current")
+    told = diagnose(loud, built, known, SHARP)
+    assert _names(told) == ["threshold_pressure", "parameter:muscle.diameter"]
+    diameter = told.named[1].parameters["diameter"]
+    assert diameter.value == pytest.approx(0.02, abs=2e-4)
 
 
 def test_what_is_named_needs_no_correction(told: Diagnosis) -> None:

@@ -18,6 +18,7 @@ from tests.diagnose.small import (
     MODEL,
     PRESSURE_NOISE,
     Hidden,
+    Moment,
     altered,
     moments,
     recording,
@@ -36,6 +37,31 @@ def test_the_noise_of_each_signal_is_measured(blank: Problem) -> None:
     assert force.std == pytest.approx(FORCE_NOISE, rel=0.2)
     assert pressure.std == pytest.approx(PRESSURE_NOISE, rel=0.2)
     assert max(force.correlation, pressure.correlation) < 0.2
+
+
+def test_a_converter_of_coarse_steps_is_no_quieter_than_its_steps() -> None:
+    """Holds read in steps of 5 N, by a sensor with a noise of 1.5 N of its own.
+
+    Most readings repeat the one before, so all but a few changes of the residual are 0.
+    """
+    runs, errors = [], []
+    for place, held in enumerate((0.0, 0.04, 0.08, 0.12, 0.16)):
+        pressure = np.repeat([100e3, 200e3, 300e3, 400e3, 500e3], 40)
+        size, level = pressure.size, np.ones(pressure.size)
+        time = 200 * place + np.arange(0.0, 50.0, 0.25)
+        force = textbook(Moment(time, pressure, held * level, level))
+        read = 5.0 * np.round((force + noise(size, 1.5, place)) / 5.0)
+        errors.append(read - force)
+        columns = {
+            "time": time,
+            "pressure": pressure + noise(size, 200.0, 10 + place),
+            "contraction": held + noise(size, 2e-5, 20 + place),
+            "force": read,
+        }
+        runs.append(Run(str(held), columns))
+    problem = problem_of(Recording("coarse", "0" * 64, tuple(runs)), MODEL, {})
+    wrong = float(np.std(np.concatenate(errors)))
+    assert problem.noises[Signal.FORCE].std == pytest.approx(wrong, rel=0.15)
 
 
 @pytest.mark.parametrize("hidden", [threshold(25.0), rubbing(20.0)])

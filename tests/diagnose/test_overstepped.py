@@ -10,7 +10,7 @@ from gripperd.diagnose.rivalry import Contest, contest
 from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.threshold_pressure import ThresholdPressure
-from tests.diagnose.small import MODEL, Hidden, Moment, pinned, recording, threshold
+from tests.diagnose.small import MODEL, Hidden, pinned, recording, restless, threshold
 
 OPEN = ("muscle.diameter", "muscle.braid_angle")
 TOLERANCES = {"muscle.diameter": 1e-4, "muscle.braid_angle": 1.7e-3}
@@ -22,11 +22,6 @@ LISTED = (
 )
 
 
-def _late_and_restless(moment: Moment) -> np.ndarray:
-    """A threshold, and waves that nothing in the list explains."""
-    return threshold(60.0)(moment) + 25.0 * np.sin(moment.time)
-
-
 def _told(diameter: float, hidden: Hidden) -> tuple[Found, Contest]:
     built = replace(MODEL, muscle=replace(MODEL.muscle, diameter=diameter))
     problem = pinned(problem_of(recording(hidden), built, TOLERANCES), *OPEN)
@@ -35,7 +30,7 @@ def _told(diameter: float, hidden: Hidden) -> tuple[Found, Contest]:
 
 
 def test_a_bore_that_its_tolerance_holds_back_is_told() -> None:
-    found, best = _told(0.0208, _late_and_restless)
+    found, best = _told(0.0208, restless(threshold(60.0)))
     assert found.problem.is_hot
     assert best.best.names == ("threshold_pressure",)
     told = with_overstepped(found, best, LISTED)
@@ -47,7 +42,7 @@ def test_a_bore_that_its_tolerance_holds_back_is_told() -> None:
 
 
 def test_a_bore_within_its_tolerance_is_not_told() -> None:
-    found, best = _told(0.0201, _late_and_restless)
+    found, best = _told(0.0201, restless(threshold(60.0)))
     assert found.problem.is_hot
     assert with_overstepped(found, best, LISTED) is best
 

@@ -1,3 +1,5 @@
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -7,12 +9,17 @@ from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.price import acts_on, worth
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
+from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.temperature import louder
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.fitted import fitted
+from tests.diagnose.small import MODEL, altered, moments, pinned, recording, rubbing
 
 
 @pytest.mark.parametrize(
@@ -82,3 +89,29 @@ def test_what_leaves_but_noise_is_an_effect_of_its_own_though_it_closes_little(
     best = _rival(blank, creep, misfit=left + 80.0)
     larger = _rival(blank, creep, rub, misfit=left)
     assert worth(blank, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(("apart", "worth_it"), [(0.0, True), (35.0, False)])
+def test_far_above_the_noise_an_addition_must_foretell_the_sweeps_it_never_saw(
+    apart: float, *, worth_it: bool
+) -> None:
+    """The zero of the force is off by 15 N on average, and by as much each time or not.
+
+    The mean of all gains as much in the fit, but that of the rest does not tell a sweep
+    whose zero lies on the other side.
+    """
+    told = recording(rubbing(20.0))
+    for place, name in enumerate(moments()):
+        zero = 15.0 + apart * (-1) ** place
+        told = altered(told, [name], "force", _off_by(zero))
+    problem = pinned(problem_of(told, MODEL, {}), "muscle.diameter")
+    problem = louder(problem, {Signal.FORCE: 5.0, Signal.PRESSURE: 1.0})
+    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+    bias = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+    null, best, larger = (fitted(problem, *one) for one in ((), (rub,), (rub, bias)))
+    assert larger.evidence - best.evidence > 30.0
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+def _off_by(zero: float) -> Callable[[Array], Array]:
+    return lambda reading: reading + zero

@@ -1,14 +1,24 @@
 import numpy as np
 import pytest
 
+from gripperd.diagnose.candidates import Candidate, forms
 from gripperd.diagnose.found import Found
+from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.search import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.track import Array
-from tests.diagnose.searched import searched
+from tests.diagnose.fitted import fitted
+from tests.diagnose.searched import OPEN, searched
 from tests.diagnose.small import (
+    MODEL,
     Hidden,
     Moment,
     nothing,
+    pinned,
+    recording,
     rubbing,
+    tabled,
     threshold,
 )
 
@@ -72,3 +82,22 @@ def test_another_seed_draws_other_recordings(late: Found) -> None:
     other = searched(threshold(25.0), seed=1)
     assert not np.array_equal(other.nulls, late.nulls)
     assert other.best.names == late.best.names
+
+
+@pytest.mark.parametrize(
+    ("told", "share"),
+    [(tabled(threshold(25.0)), 3), (recording(threshold(25.0)), 1)],
+    ids=["table", "sweeps"],
+)
+def test_of_a_table_every_form_is_fitted_in_full_of_sweeps_the_likeliest(
+    told: Recording, share: int
+) -> None:
+    problem = pinned(problem_of(told, MODEL, {}), *OPEN)
+    listed = [Candidate(one.name, one) for one in forms(ThresholdPressure)]
+    found = search(problem, listed, np.random.default_rng(0))
+    heard = [one for rival in found.rivals for one in rival.candidates]
+    assert len(listed) == 3
+    assert len(heard) == len(set(heard)) == share
+    assert set(heard) <= set(listed)
+    fits = [fitted(found.problem, one).evidence for one in listed]
+    assert found.best.evidence == pytest.approx(max(fits), abs=0.5)

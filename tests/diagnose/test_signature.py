@@ -5,6 +5,7 @@ import pytest
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.conclude import Conclusion, Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.jump import Jump
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rivalry import Contest
 from gripperd.diagnose.signature import signature
@@ -91,6 +92,15 @@ def test_a_wrong_constant_comes_without_its_path(
     )
     words = _words(blank, Contest(wrong, (), ()), _view("time", 1e-30))
     assert "nearest known effects: a wrong diameter" in words
+
+
+def test_a_jump_is_told_with_its_size_and_time(
+    blank: Problem, unnamed: Contest
+) -> None:
+    left = Conclusion(Verdict.UNEXPLAINED, (), 0.42)
+    words = signature(blank, unnamed, left, Jump(size=-39.6, at=309.4))
+    assert words[-1] == "force: jumps by -39.6 N at 309 s, and stays"
+    assert not any("jump" in word for word in signature(blank, unnamed, left))
 
 
 @pytest.mark.parametrize(
