@@ -53,7 +53,7 @@ class Course:
 
     @cached_property
     def inflating(self) -> Array:
-        """Direction of the pressure, 0 before it moved or where it is not known. [-]"""
+        """Direction of the pressure, 0 before it moved and when not known. [-]."""
         pressure = self.level("pressure")
         if not np.isfinite(pressure).all():
             return np.zeros_like(pressure)

@@ -35,6 +35,8 @@ def finalists(
         Whether to hear but the best singles.
     """
     best = leaders(singles)
+    if not best:
+        return []
     # A threshold makes the linear rank of some unfair to them: known doubles of the
     # leader are heard as well.
     doubles = best[0].candidate.doubles

@@ -66,7 +66,7 @@ def with_other_length(
     told = replace(train.model, told_length=train.model.muscle.rest_length)
     other = search(replace(train, model=told), listed, rng)
     alone = [rival for rival in other.rivals if len(rival.candidates) == 1]
-    known = {best.best.names[0], *best.equivalents[0]}
+    known = {*best.best.names, *best.equivalents[0]}
     further: dict[str, Rival] = {}
     for rival in alone:
         name = rival.names[0]

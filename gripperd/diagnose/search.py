@@ -106,7 +106,7 @@ def _pass(
         thrifty = not is_table(problem.courses)
         sets = finalists(problem, around, singles, thrifty=thrifty)
         rivals += [_fitted(problem, null.fit.point, members) for members in sets]
-        alone = [one for one in rivals if len(one.candidates) == 1]
+        alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
     best = _best(problem, null, rivals, threshold)
     rivals.sort(key=lambda rival: -rival.evidence)
@@ -137,9 +137,11 @@ def _with_bore(
     held = BORE in at_edge(problem, rival) and BORE not in rival.names
     if not (problem.is_hot and held):
         return []
-    bore = next(one for one in listed if one.name == BORE)
-    point = added(rival.fit.point, bore)
-    return [Rival((*rival.candidates, bore), polished(problem, point))]
+    return [
+        Rival((*rival.candidates, one), polished(problem, added(rival.fit.point, one)))
+        for one in listed
+        if one.name == BORE
+    ]
 
 
 def _best(

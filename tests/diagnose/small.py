@@ -139,13 +139,15 @@ def recording(
     return Recording("small", "0" * 64, tuple(_clocked(runs[n] for n in order or runs)))
 
 
-def tabled(hidden: Hidden) -> Recording:
+def tabled(hidden: Hidden, size: int = 40) -> Recording:
     """Settled points at six lengths, numbered for want of a clock."""
-    points = np.arange(40.0)
+    points = np.arange(float(size))
     runs = []
     for place, held in enumerate((0.0, 0.05, 0.1, 0.15, 0.2, 0.24)):
         level = np.ones_like(points)
-        moment = Moment(100 * place + points, 500e3 * points / 39, held * level, level)
+        moment = Moment(
+            100 * place + points, 500e3 * points / points[-1], held * level, level
+        )
         random = np.random.default_rng([SEED, place])
         columns = {
             "time": moment.time,

@@ -6,7 +6,7 @@ import pytest
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import Polished
-from gripperd.diagnose.preference import preferred, strained
+from gripperd.diagnose.preference import at_edge, preferred, strained
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 from gripperd.effects.force_sensor_gain import ForceSensorGain
@@ -63,6 +63,28 @@ def test_the_bore_is_told_before_a_mere_factor_that_fits_alike(hot: Problem) -> 
 def test_the_bore_is_not_told_before_an_effect_with_a_form(hot: Problem) -> None:
     formed = _rival(hot, LATE, TAPERED, cost=300.0)
     assert preferred(hot, [formed, _rival(hot, LATE, BORE, cost=320.0)]) is formed
+
+
+def _edged(problem: Problem, rival: Rival, share: float) -> Rival:
+    """The same with the bore at a share of its tolerance."""
+    shifts = rival.fit.point.shifts.copy()
+    shifts[1] = -share * problem.reach(rival.fit.point)[1]
+    point = replace(rival.fit.point, shifts=shifts)
+    return replace(rival, fit=replace(rival.fit, point=point))
+
+
+def test_the_bore_is_told_before_a_form_that_leaves_it_at_its_edge(
+    hot: Problem,
+) -> None:
+    formed = _rival(hot, LATE, TAPERED, cost=300.0)
+    bore = _rival(hot, LATE, BORE, cost=450.0)
+    assert hot.constants[1].path == "muscle.diameter"
+    edged = _edged(hot, formed, 1.0)
+    assert at_edge(hot, edged) == ("parameter:muscle.diameter",)
+    assert preferred(hot, [edged, bore]) is bore
+    assert preferred(hot, [_edged(hot, formed, 0.9), bore]).names == formed.names
+    worse = _rival(hot, LATE, BORE, cost=500.0)
+    assert preferred(hot, [edged, worse]) is edged
 
 
 @pytest.mark.parametrize(("candidate", "held"), [(TAPERED, False), (AT_LIMIT, True)])

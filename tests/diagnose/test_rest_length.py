@@ -88,6 +88,7 @@ def test_it_stands_for_the_first_effect_alone(train: Problem) -> None:
 
 def test_what_is_named_already_is_no_rival_of_itself(train: Problem) -> None:
     assert _opened(train, LATE).equivalents == (("twin",),)
+    assert _opened(train, BIAS, LATE).equivalents == (("twin",), ())
 
 
 @pytest.mark.parametrize(

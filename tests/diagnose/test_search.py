@@ -51,6 +51,13 @@ def test_what_is_hidden_issearched(hidden: Hidden, names: set[str]) -> None:
     assert set(searched(hidden).best.names) == names
 
 
+def test_far_from_the_model_and_without_a_candidate_nothing_is_named() -> None:
+    problem = pinned(problem_of(recording(threshold(60.0)), MODEL, {}), *OPEN)
+    found = search(problem, (), np.random.default_rng(0))
+    assert found.problem.is_hot
+    assert found.best is found.null
+
+
 def test_the_best_has_paid_its_price(late: Found) -> None:
     assert late.best.names == ("threshold_pressure",)
     assert late.best.evidence - late.null.evidence > late.threshold

@@ -9,11 +9,15 @@ from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.setup import problem_of
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
+    Moment,
     altered,
     nothing,
     recording,
+    tabled,
+    textbook,
     without,
 )
 
@@ -53,6 +57,15 @@ def test_below_the_noise_a_cord_may_be_slack() -> None:
         ]
     )
     assert left.min() > problem.slack
+
+
+def test_neighbours_in_a_table_are_no_repeats_of_each_other() -> None:
+    def corded(moment: Moment) -> Array:
+        return np.maximum(textbook(moment), 0.0) - textbook(moment)
+
+    problem = problem_of(tabled(corded, size=9), MODEL, {})
+    # Steps between points are 250 N and more; their noise is 3 N.
+    assert 0 < problem.slack < 30.0
 
 
 def _lengths(told: Recording) -> Recording:

@@ -95,6 +95,19 @@ def test_noise_about_a_smooth_pressure_is_no_cut_corner() -> None:
     assert usable(_ramped(0.0), Signal.FORCE, 4.0).all()
 
 
+def test_a_smooth_pressure_is_never_held_to_less_than_its_transmitter_is_good_for() -> (
+    None
+):
+    course = _ramped(0.0)
+    top = float(course.column("pressure").max())
+    for share, whole in ((5e-4, True), (2e-3, False)):
+        # What was filled in between two readings has no noise to speak of.
+        off = course.column("pressure") + share * top
+        known = Smooth(off, np.gradient(off), variance=9.0)
+        filled = replace(course, smooth={**course.smooth, "pressure": known})
+        assert usable(filled, Signal.FORCE, 4.0).all() == whole
+
+
 def test_a_force_made_of_a_cut_corner_says_nothing_of_the_grip() -> None:
     force = 600.0 + noise(200, 1.0)
     told = run(grip=np.full(200, 90.0), force=force, contraction=np.full(200, 0.1))
