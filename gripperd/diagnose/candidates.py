@@ -28,6 +28,10 @@ SAME: Mapping[str, str] = MappingProxyType({
     "valve.pressure_low": "valve_offset", "valve.pressure_high": "valve_gain",
 })  # fmt: skip
 """Constants that are wrong in just the way in which an effect shows."""
+BASIS: Mapping[str, str] = MappingProxyType({
+    "nonlinear_elasticity": "rubber_elasticity",
+})  # fmt: skip
+"""What an effect departs from: without it there is nothing to depart from."""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -77,21 +81,12 @@ def candidates(
     """
     found: list[Candidate] = []
     unseen: dict[str, str] = {}
-    settled = is_table(problem.courses)
-    travelled = any(np.ptp(course.direction) == 2 for course in problem.courses)
     present = {effect.name for effect in problem.model.effects}
     for name, kind in library.items():
-        lacking = sorted(kind.needs - columns)
         if name in present:
             continue
-        if lacking:
-            unseen[name] = f"{', '.join(lacking)} not measured"
-            continue
-        if name in SLIDING and not travelled:
-            unseen[name] = "the length never went both ways"
-            continue
-        if settled and (name in TEMPORAL or kind().rest().size):
-            unseen[name] = "the recording is a table of settled points, without time"
+        if reason := _unseen(problem, kind, columns):
+            unseen[name] = reason
             continue
         found += [
             Candidate(name, effect)
@@ -99,13 +94,33 @@ def candidates(
             if effect.stage in (Stage.SENSOR, Stage.GRIPPER)
             or effect.signal in problem.signals
         ]
-    found += _wrong_constants(library, problem, travelled=travelled)
+    found += _wrong_constants(library, problem)
     return tuple(found), unseen
 
 
+def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> str:
+    """Why an effect cannot be seen here; empty when it can."""
+    lacking = sorted(kind.needs - columns)
+    if lacking:
+        return f"{', '.join(lacking)} not measured"
+    basis = BASIS.get(kind.name)
+    if basis and basis not in {effect.name for effect in problem.model.effects}:
+        return f"{basis} is not in the model"
+    if kind.name in SLIDING and not _travelled(problem):
+        return "the length never went both ways"
+    if is_table(problem.courses) and (kind.name in TEMPORAL or kind().rest().size):
+        return "the recording is a table of settled points, without time"
+    return ""
+
+
+def _travelled(problem: Problem) -> bool:
+    return any(np.ptp(course.direction) == 2 for course in problem.courses)
+
+
 def _wrong_constants(
-    library: Mapping[str, type[Effect]], problem: Problem, *, travelled: bool
+    library: Mapping[str, type[Effect]], problem: Problem
 ) -> Iterator[Candidate]:
+    travelled = _travelled(problem)
     for index, constant in enumerate(problem.constants):
         is_part = constant.path.partition(".")[0] in PARTS
         unseen = constant.path == "muscle.friction_coefficient" and not travelled

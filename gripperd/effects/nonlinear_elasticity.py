@@ -12,26 +12,15 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from gripperd.model.effect import MuscleState
-from gripperd.model.kinds import InMuscle
+from gripperd.model.elastic_curve import ElasticCurve
 from gripperd.model.muscle import Muscle
-from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real
-
-TENTH = 0.1
-"""Contraction at which the powers have their amplitude. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
-class NonlinearElasticity(InMuscle):
-    r"""An elastic force beside eq. (5), odd in contraction and 0 at rest length.
-
-    .. math:: F = -\operatorname{sgn} h \left[a (1 - e^{-|h|/h_c})
-              + b \left(\frac{h}{0.1}\right)^2
-              + c \left|\frac{h}{0.1}\right|^3 \right]
-    """
+class NonlinearElasticity(ElasticCurve):
+    """An elastic force beside eq. (5), odd in contraction and 0 at rest length."""
 
     name: ClassVar[str] = "nonlinear_elasticity"
     needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
@@ -44,20 +33,6 @@ class NonlinearElasticity(InMuscle):
     )  # fmt: skip
     remedy: ClassVar[str] = "add the measured elastic curve of the bladder to the model"
 
-    saturation: float = amplitude(unit="N", scale=50.0, low=-600.0, high=600.0)
-    """Force that is reached early and then stays, a. [N]"""
-    quadratic: float = amplitude(unit="N", scale=20.0, low=-300.0, high=300.0)
-    """Force at a contraction of 0.1 that grows with its square, b. [N]"""
-    cubic: float = amplitude(unit="N", scale=10.0, low=-200.0, high=200.0)
-    """Force at a contraction of 0.1 that grows with its cube, c. [N]"""
-    contraction: float = shape(unit=None, starts=(0.03, 0.01, 0.1), low=0.003, high=0.3)
-    """Contraction over which the first saturates, h_c. [-]"""
-
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Minus the elastic force beyond eq. (5). [N]."""
-        away: Real = np.abs(at.contraction)
-        tenths = away / TENTH
-        early: Real = -np.expm1(-away / self.contraction)
-        late = tenths * tenths * (self.quadratic + self.cubic * tenths)
-        side: Real = np.sign(at.contraction)
-        return -side * (self.saturation * early + late)
+        return -self.curve(at.contraction)

@@ -43,6 +43,15 @@ def test_what_needs_a_column_that_is_missing_says_which(blank: Problem) -> None:
     assert unseen["temperature_stiffness"] == "temperature not measured"
 
 
+def test_where_the_model_has_no_rubber_nothing_departs_from_it(
+    blank: Problem,
+) -> None:
+    bare = replace(blank, model=replace(MODEL, effects=()))
+    listed, unseen = candidates(EFFECTS, bare, MEASURED)
+    assert "rubber_elasticity" in _names(listed)
+    assert unseen["nonlinear_elasticity"] == "rubber_elasticity is not in the model"
+
+
 def test_the_valve_is_not_suspected_where_its_pressure_is_not_predicted() -> None:
     problem = _without_current()
     listed, _ = candidates(EFFECTS, problem, MEASURED - {"current"})

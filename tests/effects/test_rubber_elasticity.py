@@ -90,3 +90,18 @@ def test_it_does_not_depend_on_pressure_or_direction(muscle: Muscle) -> None:
     states = [MuscleState(p, 0.1, ratio, d) for p in (0.0, 1e5, 8e5) for d in Direction]
     assert len({RubberElasticity().force(at, muscle) for at in states}) == 1
     assert RubberElasticity().kinks(0.1, ratio, muscle) == ()
+
+
+def test_a_measured_curve_stands_in_for_eq_5(muscle: Muscle) -> None:
+    # Two fits of 20 mm muscles agree on about 300 N (1 - exp(-h / 0.033)).
+    early = RubberElasticity(share=0.0, saturation=300.0, contraction=0.033)
+    ratio = muscle.diameter_ratio(0.033)
+    for contraction, pull in ((0.033, 189.636), (-0.033, -189.636)):
+        at = MuscleState(3e5, contraction, ratio, Direction.CONTRACTING)
+        assert -float(early.force(at, muscle)) == pytest.approx(pull, abs=1e-3)
+
+
+def test_a_share_of_eq_5_and_a_curve_add_up(muscle: Muscle) -> None:
+    at = MuscleState(3e5, 0.1, muscle.diameter_ratio(0.1), Direction.CONTRACTING)
+    both = RubberElasticity(share=0.5, quadratic=10.0, cubic=5.0)
+    assert -float(both.force(at, muscle)) == pytest.approx(186.3 / 2 + 15, abs=0.025)
