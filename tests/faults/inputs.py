@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import uvloop
 
+from gripperd.bench.faults import BenchFaults
 from gripperd.bench.modules import Fitted, Modules
 from gripperd.bench.rig import Rig
 from gripperd.bench.sensors import Channel, SensorSettings
@@ -32,11 +33,11 @@ from gripperd.protocol.modules import (
     OutputModule,
     RegisterMap,
 )
-from gripperd.signals import Quality, Reading
+from gripperd.signals import Measurement, Quality, Reading
 from tests.bench.line import DESCRIBED
 from tests.control.far_rig import GRIPPER
 from tests.faults.module import SENSORS, TIMEOUT, holding, noisy
-from tests.faults.row import Row
+from tests.faults.row import Row, counted
 
 TRIES = 2
 PATIENCE = 60.0
@@ -57,6 +58,13 @@ NUMBERS = (math.nan, math.inf, -math.inf, 3e35, -0.004, 0.0216)
 """What float registers can hold besides a current that a loop can carry. [A]"""
 TEXTS = ("+nan   ", "+  inf ", "+9999.9", "+99.999", "-00.000", "+1e4000", "+10,700")
 """What can stand where seven characters should be a current, as after an over-range."""
+
+ONE = frozenset({Channel.GRIP})
+WIRES = {
+    "force wire shorted, any input module": BenchFaults(shorted=ONE),
+    "force wire cut, any input module": BenchFaults(broken=ONE),
+}
+WARNED = "not told, and warned of at the start"
 
 
 class Odd(NamedTuple):
@@ -205,8 +213,47 @@ async def _since(start: float, happened: Callable[[], bool]) -> float:
     return time.monotonic() - start
 
 
+async def wired(name: str, faults: BenchFaults) -> Row:
+    """Break the wire of the force sensor on every input module, in every range."""
+    valve, found = _output("waveshare_ao_8ch"), []
+    output = OutputWiring(module=valve, unit=1, channel=0)
+    for module in DESCRIBED.values():
+        if not isinstance(module, InputModule) or module.modbus is None:
+            continue
+        for chosen in module.ranges:
+            sensed = InputWiring(
+                module=module, unit=2, sensors=SENSORS, range_name=chosen
+            )
+            driver, measured = await _read(output, sensed, faults)
+            if measured.grip.quality is Quality.BAD:
+                found.append("told")
+            elif faults.broken and any("a cut wire" in w for w in driver.warnings):
+                found.append(WARNED)
+            else:
+                found.append(f"{module.name} {chosen} believed")
+    return counted(name, found, {"told", WARNED})
+
+
+async def _read(
+    output: OutputWiring, sensed: InputWiring, faults: BenchFaults
+) -> tuple[AnalogRig, Measurement]:
+    """What a driver reads of a bench with a fault."""
+    rig = Rig(GRIPPER.chain, Random(1), sensors=SensorSettings(**noisy()))
+    rig.plant.faults = faults
+    inputs = Fitted(sensed.module, sensed.unit, sensed.range_name)
+    modules = Modules(rig, Fitted(output.module, output.unit), inputs)
+    async with serve_bench(modules, "127.0.0.1", 0) as bench:
+        host, _, port = bench.address.rpartition(":")
+        async with open_bus(TcpAddress(host=host, port=int(port))) as bus:
+            await bus.up.wait()
+            driver = AnalogRig(bus, output, sensed)
+            return driver, await driver.read(0.0)
+
+
 def rows() -> Iterator[Row]:
     """Every oddity on the lines that can carry it."""
+    for name, faults in WIRES.items():
+        yield uvloop.run(wired(name, faults))
     for number in NUMBERS:
         yield uvloop.run(said(in_registers, number))
     for text in TEXTS:

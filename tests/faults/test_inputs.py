@@ -28,3 +28,11 @@ async def test_a_force_that_is_no_number_is_replaced_and_told(
     row = await inputs.said(line, instead, tries=1)
     assert row.wrong == ()
     assert cause in row.noticed
+
+
+@pytest.mark.anyio
+@pytest.mark.parametrize("name", inputs.WIRES)
+async def test_a_wire_that_is_cut_or_shorted_is_told_or_warned_of(name: str) -> None:
+    row = await inputs.wired(name, inputs.WIRES[name])
+    assert row.wrong == ()
+    assert row.came["told"] >= 11
