@@ -18,6 +18,7 @@ from tests.faults import (
     clock,
     commands,
     disk,
+    hostile,
     inputs,
     line,
     load,
@@ -45,6 +46,7 @@ CHAPTERS = {
     "models": models,
     "load": load,
     "commands": commands,
+    "hostile": hostile,
 }
 
 
