@@ -6,17 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from gripperd.bench.banks import Bank, Place, Words
 from gripperd.bench.channels import Outputs
 from gripperd.protocol.encoding import (
+    LIMITS,
     ROUNDING,
     Encoding,
     Range,
     Registers,
-    ValueType,
 )
 from gripperd.protocol.modbus import Refusal
 from gripperd.protocol.modules import Beyond, OutputMap
-
-LIMITS = {ValueType.U16: (0, 0xFFFF), ValueType.S16: (-0x8000, 0x7FFF)}
-"""Least and largest count of a register."""
 
 
 class Currents(Bank):

@@ -40,8 +40,12 @@ class BenchFaults:
     """Downward force on the object, besides its weight. [N]"""
     broken: frozenset[Channel] = frozenset()
     """Sensors whose wire is cut: 0 mA."""
+    shorted: frozenset[Channel] = frozenset()
+    """Sensors whose wire touches the supply: 24 mA."""
     frozen: frozenset[Channel] = frozenset()
     """Sensors that repeat their last reading."""
+    spiking: frozenset[Channel] = frozenset()
+    """Sensors with a wild sample now and then, a tenth of them."""
     opened: frozenset[Contact] = frozenset()
     """Contacts that are open: the enable is missing, the emergency stop pressed."""
 

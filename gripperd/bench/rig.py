@@ -100,7 +100,13 @@ class Rig:
         """Sample the sensors: pressure, opening, grip. [A, A, A]."""
         faults = self.plant.faults
         values = self._true() | self._shown
-        return self._sensors.read(values, broken=faults.broken, frozen=faults.frozen)
+        return self._sensors.read(
+            values,
+            broken=faults.broken,
+            shorted=faults.shorted,
+            frozen=faults.frozen,
+            spiking=faults.spiking,
+        )
 
     def outlet_current(self) -> float:
         """Current that stands for the pressure at the regulator outlet. [A]."""

@@ -11,6 +11,11 @@ LOWEST = 3.8e-3
 HIGHEST = 20.5e-3
 """Where a healthy transmitter saturates, so that a failed one can be told from it
 (NAMUR NE 43). [A]"""
+SHORTED = 24e-3
+"""What a wire carries that touches the supply: above 21 mA, and little enough for a
+module to survive. [A]"""
+SPIKING = 0.1
+"""How likely a sample of a spiking sensor is wild. [-]"""
 
 
 class Channel(StrEnum):
@@ -66,6 +71,7 @@ class Sensors:
             Channel.GRIP: settings.grip,
         }
         self._rng = rng
+        self._wild = _apart(rng)
         self._last: dict[Channel, float] = {}
 
     def read(
@@ -73,7 +79,9 @@ class Sensors:
         values: dict[Channel, float],
         *,
         broken: AbstractSet[Channel] = frozenset(),
+        shorted: AbstractSet[Channel] = frozenset(),
         frozen: AbstractSet[Channel] = frozenset(),
+        spiking: AbstractSet[Channel] = frozenset(),
     ) -> tuple[float, float, float]:
         """Sample every channel once.
 
@@ -82,9 +90,13 @@ class Sensors:
         values
             True values. [SI]
         broken
-            Channels that give 0 mA.
+            Channels that give 0 mA, whatever else is wrong with them.
+        shorted
+            Channels that give 24 mA.
         frozen
             Channels that repeat what they gave last.
+        spiking
+            Channels that give any current between these now and then.
 
         Returns
         -------
@@ -95,7 +107,30 @@ class Sensors:
             fresh = sensor.current(values[channel], self._rng)
             if channel not in frozen or channel not in self._last:
                 self._last[channel] = fresh
-        pressure, opening, grip = (
-            0.0 if channel in broken else self._last[channel] for channel in Channel
-        )
+        shown = {
+            **self._last,
+            **self._spikes(spiking),
+            **dict.fromkeys(shorted, SHORTED),
+            **dict.fromkeys(broken, 0.0),
+        }
+        pressure, opening, grip = (shown[channel] for channel in Channel)
         return pressure, opening, grip
+
+    def _spikes(self, spiking: AbstractSet[Channel]) -> dict[Channel, float]:
+        """Wild currents of this sample. [A]."""
+        drawn = {
+            channel: (self._wild.random(), self._wild.uniform(0.0, SHORTED))
+            for channel in Channel
+        }
+        return {
+            channel: round(current, 6)
+            for channel, (chance, current) in drawn.items()
+            if channel in spiking and chance < SPIKING
+        }
+
+
+def _apart(rng: Random) -> Random:
+    """A generator as fixed as another, which is left as it is."""
+    twin = Random()
+    twin.setstate(rng.getstate())
+    return Random(twin.getrandbits(64))

@@ -42,6 +42,9 @@ profile. Limit, duration, reaction and latch can be set for each gripper under
 
 {monitors}
 
+A sensor with wild samples has failed with the third within a second; that takes as long
+as they take to come.
+
 ## Interlocks: what an open contact does
 
 `not_enabled` and `estopped` are the contacts of `interlocks`, which also sets their

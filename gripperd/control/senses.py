@@ -1,8 +1,8 @@
 """Judges every sample once, before anything is decided on it.
 
 A single spike is taken out, a gap of a sample or two is bridged, and a sensor that is
-broken or stuck is not believed; the model replaces the force. What comes out is what
-clients see.
+broken, stuck or full of spikes is not believed; the model replaces the force. What
+comes out is what clients see.
 """
 
 from collections import deque
@@ -14,6 +14,7 @@ from types import MappingProxyType
 from gripperd.control.frozen import Frozen
 from gripperd.control.monitors.sight import Scatter
 from gripperd.control.noise import Noise
+from gripperd.control.spikes import MANY, WITHIN, Spikes
 from gripperd.errors import DomainError
 from gripperd.model import Chain
 from gripperd.signals import Measurement, Quality, Reading
@@ -130,15 +131,24 @@ class _Channel:
         self.noise = Noise(LEAST_NOISE * abs(span))
         self._values: deque[float] = deque(maxlen=window)
         self._frozen = Frozen()
+        self._spikes = Spikes(span)
         self._gap = 0
-        self._last = Reading.bad("not measured yet")
+        self._last = self._believed = Reading.bad("not measured yet")
 
     def doubt(self, reading: Reading, dt: float, *, resting: bool) -> Reading:
-        """The reading, or why it is not believed although there is one."""
-        self.noise.update(reading.value, dt)
-        if not self._frozen.update(reading.value, dt, resting=resting):
-            return reading
-        return Reading.bad(f"stuck for {self._frozen.seconds:.1f} s on one value")
+        """The reading, or why it is not believed although there is one.
+
+        For a sample that leaps away the one before stands, until the next confirms it.
+        """
+        alone = self._spikes.update(reading.value, self.noise.sigma, dt)
+        self.noise.update(None if alone else reading.value, dt)
+        if self._frozen.update(reading.value, dt, resting=resting):
+            return Reading.bad(f"stuck for {self._frozen.seconds:.1f} s on one value")
+        if self._spikes.many:
+            return Reading.bad(f"spikes: {MANY} or more within {WITHIN:g} s")
+        if not alone:
+            self._believed = reading
+        return self._believed
 
     def forget(self) -> None:
         """Bridge nothing with the values so far."""

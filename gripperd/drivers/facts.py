@@ -1,11 +1,14 @@
 """What is known of a gripper's modules, for a person and for `/info`."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
 from gripperd.drivers.wiring import InputWiring, OutputWiring
+from gripperd.protocol.live_zero import BROKEN_BELOW
 from gripperd.protocol.modules import Evidence, ModuleDialect
 from gripperd.protocol.watchdog import Watchdog
+from gripperd.units import MILLI
 
 KEEPS = "the module keeps the last current when this daemon stops"
 
@@ -113,7 +116,23 @@ def warnings(output: OutputWiring, inputs: InputWiring | None) -> tuple[str, ...
     lines = [*output.module.doubts]
     if output.watchdog is None or output.watchdog.timeout is None:
         lines.append(f"{output.module.name}: {KEEPS}")
-    return (*lines, *(inputs.module.doubts if inputs else ()))
+    if inputs is not None:
+        lines += (*inputs.module.doubts, *_blind(inputs))
+    return tuple(lines)
+
+
+def _blind(inputs: InputWiring) -> Iterator[str]:
+    """A module whose least count is a current that a working loop carries."""
+    map_ = inputs.module.modbus
+    if inputs.dialect is not ModuleDialect.MODBUS or map_ is None:
+        return
+    least = inputs.range.current(map_.encoding.limits[0])
+    if map_.status is None and least >= BROKEN_BELOW:
+        yield (
+            f"{inputs.module.name}: in {inputs.range.name} a cut wire reads as"
+            f" {least / MILLI:g} mA, and is told from a value there by its stillness"
+            " alone"
+        )
 
 
 def watchdog_of(wiring: OutputWiring) -> Watchdog | None:

@@ -12,6 +12,7 @@ from gripperd.protocol.engineering import from_engineering
 from gripperd.protocol.modules import InputPhrases, RegisterMap
 from gripperd.protocol.phrase import CURRENT
 from gripperd.signals import Reading
+from gripperd.units import MILLI
 
 
 class ModbusInputs:
@@ -79,7 +80,11 @@ class ModbusInputs:
         if causes:
             return Reading.bad(_said(self._wiring, sensor, "; ".join(causes)))
         count = self._map.encoding.decode(words)
-        return sensor.scale.reading(self._range.current(count))
+        current = self._range.current(count)
+        if count == self._map.encoding.limits[1]:
+            said = f"{current / MILLI:.3f} mA or more, the most that it can say"
+            return Reading.bad(_said(self._wiring, sensor, said))
+        return sensor.scale.reading(current)
 
 
 class AsciiInputs:

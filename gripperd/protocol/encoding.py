@@ -1,9 +1,11 @@
 """How a module writes a current down: ranges, counts and registers."""
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from math import inf
+from types import MappingProxyType
 
 from gripperd.errors import InputError
 from gripperd.protocol.modbus import Table
@@ -20,6 +22,12 @@ class ValueType(StrEnum):
     S16 = "s16"
     F32 = "f32"
     """IEEE 754 binary32, in two registers."""
+
+
+LIMITS: Mapping[ValueType, tuple[int, int]] = MappingProxyType(
+    {ValueType.U16: (0, 0xFFFF), ValueType.S16: (-0x8000, 0x7FFF)}
+)
+"""Least and largest integer of a register."""
 
 
 class WordOrder(StrEnum):
@@ -62,6 +70,18 @@ class Encoding:
     def words(self) -> int:
         """Registers of one value."""
         return 2 if self.type is ValueType.F32 else 1
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and largest count that the registers can hold.
+
+        >>> Encoding(type=ValueType.S16, resolution=8).limits
+        (-32768, 32760)
+        """
+        if self.type is ValueType.F32:
+            return -inf, inf
+        low, high = LIMITS[self.type]
+        return low, high - high % self.resolution
 
     def encode(self, count: float) -> tuple[int, ...]:
         """Registers of a count, in the order of their addresses.

@@ -1,6 +1,7 @@
 """4-20 mA loops: what a current says about the quantity, or about the loop."""
 
 from dataclasses import dataclass
+from math import isnan
 
 from gripperd.signals import Reading
 from gripperd.units import MILLI
@@ -46,9 +47,12 @@ class LoopScale:
 
 
 def _complaint(current: float) -> str:
+    if isnan(current):
+        return "the loop is broken: its current is not a number"
     side, limit = ("below", BROKEN_BELOW)
     if current > BROKEN_ABOVE:
         side, limit = ("above", BROKEN_ABOVE)
-    return (
-        f"the loop is broken: {current / MILLI:.3f} mA is {side} {limit / MILLI:g} mA"
-    )
+    found = current / MILLI
+    # A float register may hold more digits than anybody wants to read.
+    shown = f"{found:.3f}" if abs(found) < 1e3 else f"{found:.3g}"
+    return f"the loop is broken: {shown} mA is {side} {limit / MILLI:g} mA"

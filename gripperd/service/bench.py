@@ -40,7 +40,7 @@ routes = router("bench")
 MODBUS_TCP = "modbus_tcp"
 """The line that has a host and a port."""
 
-Broken = Annotated[Channel, Field(strict=False)]
+Wired = Annotated[Channel, Field(strict=False)]
 Opened = Annotated[Contact, Field(strict=False)]
 
 
@@ -79,9 +79,15 @@ class FaultsRequest(Section):
     pull_N: float = Field(
         default=0, ge=0, le=100_000, description="On the object, besides its weight."
     )
-    broken: list[Broken] = Field(default=[], description="Sensors whose wire is cut.")
-    frozen: list[Broken] = Field(
+    broken: list[Wired] = Field(default=[], description="Sensors whose wire is cut.")
+    shorted: list[Wired] = Field(
+        default=[], description="Sensors whose wire touches the supply."
+    )
+    frozen: list[Wired] = Field(
         default=[], description="Sensors that repeat themselves."
+    )
+    spiking: list[Wired] = Field(
+        default=[], description="Sensors with a wild sample now and then."
     )
     opened: list[Opened] = Field(
         default=[],
@@ -101,7 +107,9 @@ class FaultsDocument(Document):
     pad_friction: float
     pull_N: float
     broken: tuple[Channel, ...]
+    shorted: tuple[Channel, ...]
     frozen: tuple[Channel, ...]
+    spiking: tuple[Channel, ...]
     opened: tuple[Contact, ...]
 
 
@@ -170,7 +178,9 @@ async def set_faults(daemon: Daemon, given: FaultsRequest) -> BenchDocument:
         pad_friction=given.pad_friction,
         pull=given.pull_N,
         broken=frozenset(given.broken),
+        shorted=frozenset(given.shorted),
         frozen=frozenset(given.frozen),
+        spiking=frozenset(given.spiking),
         opened=frozenset(given.opened),
     )
     return await _asked(daemon, SetFaults(faults))
@@ -267,6 +277,8 @@ def _faults(faults: BenchFaults) -> FaultsDocument:
         pad_friction=faults.pad_friction,
         pull_N=faults.pull,
         broken=tuple(sorted(faults.broken)),
+        shorted=tuple(sorted(faults.shorted)),
         frozen=tuple(sorted(faults.frozen)),
+        spiking=tuple(sorted(faults.spiking)),
         opened=tuple(sorted(faults.opened)),
     )

@@ -7,23 +7,29 @@ they come from.
 """
 
 import asyncio
+import re
+import time
 from collections.abc import Sequence
-from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from gripperd.errors import Refused
 from gripperd.service.problems import ProblemResponse, problem
+from gripperd.service.refusals import Refusals
 
 LONGEST_BODY = 64 * 1024
 LONGEST_HEADERS = 16 * 1024
 """[octets]"""
 BODY_TIME = 10.0
 """Longest time for a body to arrive. [s]"""
+SCHEMES = ("http", "https")
+"""Of its own pages; the second with a proxy in front of it."""
 STREAMED = frozenset({("POST", "/v1/recordings")})
 """Bodies that are read as they come, by whoever answers."""
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
+HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([0-9a-z._-]+))(?::[0-9]*)?", re.IGNORECASE)
+"""An address or a name, and a port (RFC 9110, 7.2)."""
 PRODUCED = frozenset(
     {
         "*/*",
@@ -52,6 +58,7 @@ class Guard:
         self._app = app
         self._hosts = LOOPBACK | {host.lower()}
         self._body_time = body_time
+        self._refusals = Refusals(time.monotonic)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request, or let it pass with its body read, if it is not large."""
@@ -65,6 +72,7 @@ class Guard:
             streamed = (scope["method"], scope["path"]) in STREAMED
             body = b"" if streamed else await self._body(headers, receive)
         except Refused as refused:
+            self._refusals.note(refused.code, str(refused))
             found = problem(
                 refused.code,
                 str(refused),
@@ -91,7 +99,7 @@ class Guard:
         if len(hosts) != 1:
             detail = f"{len(hosts)} Host headers; there must be one"
             raise Refused(detail, code="bad-request")
-        if _name_of(f"//{hosts[0]}") not in self._hosts:
+        if _name_of(hosts[0]) not in self._hosts:
             detail = f"this service is not called {hosts[0][:100]!r}"
             hints = (f"it is called: {', '.join(sorted(self._hosts))}",)
             raise Refused(detail, code="misdirected", hints=hints)
@@ -113,20 +121,14 @@ class Guard:
         return body
 
 
-def _name_of(url: str) -> str | None:
-    try:
-        return urlsplit(url).hostname
-    except ValueError:
-        return None
+def _name_of(host: str) -> str | None:
+    found = HOST.fullmatch(host)
+    return (found[1] or found[2]).lower() if found else None
 
 
 def _check_origin(origin: str, host: str) -> None:
     """Refuse every page but this service's own; one at another port is a stranger's."""
-    try:
-        place = urlsplit(origin).netloc
-    except ValueError:
-        place = ""
-    if place.lower() != host.lower():
+    if origin.lower() not in {f"{scheme}://{host.lower()}" for scheme in SCHEMES}:
         detail = f"a page from {origin[:100]!r} may not talk to this service"
         raise Refused(detail, code="foreign-origin")
 

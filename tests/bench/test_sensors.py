@@ -52,6 +52,33 @@ def test_a_broken_sensor_gives_no_current() -> None:
     assert read[0] == pytest.approx(0.012, abs=1e-4)
 
 
+def test_a_shorted_sensor_gives_more_than_any_working_one() -> None:
+    sensors = Sensors(SensorSettings(), Random(0))
+    pressure, opening, _ = sensors.read(VALUES, shorted={Channel.OPENING})
+    assert opening == 0.024
+    assert pressure == pytest.approx(0.012, abs=1e-4)
+
+
+def test_a_spiking_sensor_is_wild_now_and_then_and_right_in_between() -> None:
+    healthy = Sensors(SensorSettings(), Random(3))
+    spiking = Sensors(SensorSettings(), Random(3))
+    good = [healthy.read(VALUES)[2] for _ in range(2000)]
+    read = [spiking.read(VALUES, spiking={Channel.GRIP})[2] for _ in range(2000)]
+    wild = [now for now, right in zip(read, good, strict=True) if now != right]
+    assert len(wild) == pytest.approx(200, rel=0.2)
+    assert 0.0 <= min(wild) < 0.0015
+    assert 0.0225 < max(wild) <= 0.024
+
+
+def test_the_same_seed_gives_the_same_spikes() -> None:
+    one, another = (Sensors(SensorSettings(), Random(7)) for _ in range(2))
+    for _ in range(50):
+        spiking = {Channel.PRESSURE, Channel.GRIP}
+        assert one.read(VALUES, spiking=spiking) == another.read(
+            VALUES, spiking=spiking
+        )
+
+
 def test_a_frozen_sensor_repeats_its_last_reading() -> None:
     sensors = Sensors(SensorSettings(), Random(0))
     before = sensors.read(VALUES)
@@ -69,3 +96,12 @@ def test_a_fault_of_one_sensor_leaves_the_noise_of_the_others_alone() -> None:
         good = healthy.read(VALUES)
         bad = faulty.read(VALUES, broken={Channel.PRESSURE}, frozen={Channel.OPENING})
         assert bad[2] == good[2]
+
+
+def test_spikes_of_one_sensor_leave_the_noise_of_the_others_alone() -> None:
+    healthy = Sensors(SensorSettings(), Random(5))
+    faulty = Sensors(SensorSettings(), Random(5))
+    for _ in range(100):
+        good = healthy.read(VALUES)
+        bad = faulty.read(VALUES, spiking={Channel.PRESSURE})
+        assert bad[1:] == good[1:]

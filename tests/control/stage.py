@@ -71,6 +71,8 @@ class Stage:
         self.rig = rig
         self.now = 0.0
         self.truth: list[Truth] = []
+        self.raw: Measurement | None = None
+        """What the modules said last."""
         self.writes: list[tuple[float, float]] = []
         """Every current that was written, and when. [s, A]"""
         ids = count(1)
@@ -131,7 +133,8 @@ class Stage:
     def tick(self, dt: float = PERIOD) -> None:
         """One period of control."""
         self.pass_time(dt)
-        self.write(self.gripper.period(self.measure(), dt, self.instant))
+        self.raw = self.measure()
+        self.write(self.gripper.period(self.raw, dt, self.instant))
 
     def run(self, seconds: float) -> None:
         """So many seconds of control."""

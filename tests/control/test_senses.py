@@ -96,6 +96,42 @@ def test_a_sensor_that_moves_again_is_believed_again(chain: Chain) -> None:
     assert sensed(senses, 0.01, 0.065, PERIOD).quality is Quality.GOOD
 
 
+def test_a_pressure_that_leaps_for_one_sample_is_never_shown(chain: Chain) -> None:
+    senses = Senses(chain)
+    said = (200e3, 200.5e3, 590e3, 200e3, 0.0, 200.5e3)
+    shown = [
+        senses.judge(measured(BROKEN, each, 0.065), PERIOD).pressure for each in said
+    ]
+    assert [each.value for each in shown] == [
+        200e3,
+        200.5e3,
+        200.5e3,
+        200e3,
+        200e3,
+        200.5e3,
+    ]
+    assert all(each.quality is Quality.GOOD for each in shown)
+
+
+def test_a_pressure_full_of_spikes_is_bad_and_says_why(chain: Chain) -> None:
+    senses = Senses(chain)
+    said = (200e3, 590e3, 200e3, 0.0)
+    *_, shown = (
+        senses.judge(measured(BROKEN, each, 0.065), PERIOD).pressure
+        for each in said * 3
+    )
+    assert (shown.quality, shown.value) == (Quality.BAD, None)
+    assert shown.cause == "spikes: 3 or more within 1 s"
+
+
+def test_spikes_do_not_pass_for_noise(chain: Chain) -> None:
+    rng, senses = Random(1), Senses(chain)
+    for number in range(3000):
+        wild = rng.uniform(0.0, 590e3) if number % 10 == 5 else rng.gauss(200e3, 300.0)
+        senses.judge(measured(BROKEN, wild, 0.065), PERIOD)
+    assert senses.scatter.pressure < 600.0
+
+
 def forces(senses: Senses, *raw: Reading) -> list[float | None]:
     """What comes out for a row of force samples."""
     return [senses.judge(measured(each), PERIOD).grip.value for each in raw]

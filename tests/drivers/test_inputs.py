@@ -101,6 +101,11 @@ async def test_half_of_the_loop_is_half_of_the_span(
         ("wago_750_455", placed(Table.INPUT, 0, 0x3FF8, 0, 0x7FFB), "over the range"),
         ("wago_750_455", placed(Table.INPUT, 0, 0x3FF8, 0, 0x7FFF), "over the range"),
         ("wago_750_455", placed(Table.INPUT, 0, 0x3FF8, 0, 0x4001), "reports an error"),
+        (
+            "adam_4017_plus",
+            holding(0, MIDDLE, 0, 0xFFFF) | holding(200, 7, 7, 7),
+            "20.000 mA or more, the most that it can say",
+        ),
     ],
 )
 async def test_what_the_module_says_against_a_channel_is_a_bad_reading(
@@ -112,6 +117,13 @@ async def test_what_the_module_says_against_a_channel_is_a_bad_reading(
     assert sample.grip.quality is Quality.BAD
     assert cause in sample.grip.cause
     assert f"{module} says of channel 2" in sample.grip.cause
+
+
+async def test_a_module_that_cannot_tell_a_cut_wire_is_warned_of() -> None:
+    for module, warned in (("adam_4017_plus", True), ("adam_6217", False)):
+        async with on_the_wire(Device(VALVE)) as bus:
+            warnings = "; ".join(rig(bus, wired(module)).warnings)
+        assert ("in 4-20mA a cut wire reads as 4 mA" in warnings) is warned
 
 
 async def test_all_sensors_are_read_in_one_request() -> None:

@@ -18,6 +18,8 @@ from tests.faults import (
     clock,
     commands,
     disk,
+    hostile,
+    inputs,
     line,
     load,
     models,
@@ -34,6 +36,7 @@ CHAPTERS = {
     "rig": rig,
     "wire": wire,
     "line": line,
+    "inputs": inputs,
     "module": module,
     "process": process,
     "power": power,
@@ -43,6 +46,7 @@ CHAPTERS = {
     "models": models,
     "load": load,
     "commands": commands,
+    "hostile": hostile,
 }
 
 

@@ -31,6 +31,12 @@ from tests.faults.row import Row
 
 OUTPUT, INPUT = DESCRIBED["adam_6224"], DESCRIBED["adam_6217"]
 """It has a watchdog that latches, and says so in its status."""
+assert GRIPPER.input is not None
+SENSORS = {
+    name: wiring
+    for name, wiring in GRIPPER.input.sensors.items()
+    if name in set(Channel)
+}
 TIMEOUT = 0.2
 WITHIN = 0.3
 LEFT_ALONE = 1.0
@@ -51,33 +57,38 @@ async def driven() -> AsyncIterator[Driven]:
     """Control of a gripper on modules with a watchdog, holding."""
     assert isinstance(OUTPUT, OutputModule)
     assert isinstance(INPUT, InputModule)
-    assert GRIPPER.input is not None
-    sensors = {
-        name: wiring
-        for name, wiring in GRIPPER.input.sensors.items()
-        if name in set(Channel)
-    }
-    noisy = {name: Sensor(wiring.scale, 5e-4) for name, wiring in sensors.items()}
-    rig = Rig(GRIPPER.chain, Random(1), sensors=SensorSettings(**noisy))
+    rig = Rig(GRIPPER.chain, Random(1), sensors=SensorSettings(**noisy()))
     with tempfile.TemporaryDirectory() as name:
         modules = (OUTPUT.name, INPUT.name)
         folder = Path(name)
         async with on_line("tcp", rig, folder, *modules, patience=TIMEOUT) as line:
             valve = OutputWiring(module=OUTPUT, unit=1, channel=0)
-            wired = InputWiring(module=INPUT, unit=2, sensors=sensors)
-            ids = count()
-            gripper = Gripper(
-                "g0", GRIPPER.chain, auto_enable=True, identify=lambda: f"{next(ids)}"
-            )
-            loop = Loop(gripper, AnalogRig(line.bus, valve, wired), period=PERIOD)
-            async with running(loop):
-                await became(loop, Machine.READY)
-                apple = replace(SETTINGS.profiles["apple"], approach=40e-3, ramp=20e-3)
-                rig.plant.place(real(apple))
-                given, _ = loop.submit(ordered(apple, Mode.CURRENT), SOON, None)
-                done = await loop.wait(given.id, SOON)
-                assert done.status is Status.SUCCEEDED, done.error
+            wired = InputWiring(module=INPUT, unit=2, sensors=SENSORS)
+            async with holding(AnalogRig(line.bus, valve, wired), rig) as loop:
                 yield Driven(line, rig, loop)
+
+
+@asynccontextmanager
+async def holding(driver: AnalogRig, rig: Rig) -> AsyncIterator[Loop]:
+    """Control of the shipped gripper on any modules, holding an apple."""
+    ids = count()
+    gripper = Gripper(
+        "g0", GRIPPER.chain, auto_enable=True, identify=lambda: f"{next(ids)}"
+    )
+    loop = Loop(gripper, driver, period=PERIOD)
+    async with running(loop):
+        await became(loop, Machine.READY)
+        apple = replace(SETTINGS.profiles["apple"], approach=40e-3, ramp=20e-3)
+        rig.plant.place(real(apple))
+        given, _ = loop.submit(ordered(apple, Mode.CURRENT), SOON, None)
+        done = await loop.wait(given.id, SOON)
+        assert done.status is Status.SUCCEEDED, done.error
+        yield loop
+
+
+def noisy() -> dict[str, Sensor]:
+    """The sensors of the shipped gripper, with the noise of the shipped bench."""
+    return {name: Sensor(wiring.scale, 5e-4) for name, wiring in SENSORS.items()}
 
 
 async def _noticed(loop: Loop) -> float:

@@ -1,10 +1,10 @@
 """Faults of sensors, valve, air, jaws and part, in the time of the simulated rig."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 
-from gripperd.bench.faults import BenchFaults
+from gripperd.bench.faults import HEALTHY, BenchFaults
 from gripperd.bench.sensors import Channel
 from gripperd.config import load_settings, shipped
 from gripperd.control.command import Outcome
@@ -12,7 +12,9 @@ from gripperd.control.monitors.policy import DETECTION, POLICIES, Cause
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Grip, Machine
 from gripperd.model import Chain
+from gripperd.signals import Quality, Reading
 from tests.control.monitors.watched import (
+    SPANS,
     appeared,
     faults,
     holding,
@@ -35,17 +37,31 @@ BROKEN: tuple[tuple[str, Cause, BenchFaults], ...] = (
     ("valve is off", Cause.VALVE_NOT_FOLLOWING, BenchFaults(valve_offset=60e3)),
     *(
         (f"{channel.value} wire cut", Cause.SENSOR_FAILED, BenchFaults(broken=one))
-        for channel in (Channel.PRESSURE, Channel.OPENING, Channel.GRIP)
+        for channel in Channel
+        for one in (frozenset({channel}),)
+    ),
+    *(
+        (f"{channel.value} wire shorted", Cause.SENSOR_FAILED, BenchFaults(shorted=one))
+        for channel in Channel
         for one in (frozenset({channel}),)
     ),
     *(
         (f"{channel.value} frozen", Cause.SENSOR_FAILED, BenchFaults(frozen=one))
-        for channel in (Channel.PRESSURE, Channel.OPENING, Channel.GRIP)
+        for channel in Channel
         for one in (frozenset({channel}),)
     ),
 )
 OBJECTS = ("apple", "peach", "raw_egg", "grape")
-
+SPIKES_WITHIN = 2.0
+"""Longest until three spikes have come within a second, of ten in a second. [s]"""
+SINGLE = 5
+"""Wild samples of each sensor and object that come alone."""
+WILD = 0.05
+"""Share of the span by which a sample is wild. [-]"""
+RIGHT = 6 * 5e-4
+"""Share of the span within which a value is right: six sigma of the sensors. [-]"""
+KEPT = 0.02
+"""Share by which the force may differ. [-]"""
 
 OTHER_SIZE = 0.012
 """How much another object differs from its profile, beyond every tolerance. [m]"""
@@ -59,6 +75,9 @@ def rows() -> Iterator[Row]:
     held = partial(_held, chain, profiles)
     for name, cause, broken in BROKEN:
         yield _row(name, cause, [_noticed(made, cause, broken) for made in held()])
+    for channel in Channel:
+        yield spiking(held(), channel)
+        yield single(held(), channel)
     yield _row("object taken away", Cause.PART_LOST, [_taken(made) for made in held()])
     egg, apple = profiles["raw_egg"], profiles["apple"]
     yield over_force(chain, egg)
@@ -67,6 +86,88 @@ def rows() -> Iterator[Row]:
     yield blocked(chain, [profiles[name] for name in OBJECTS])
     yield restarted(chain, [profiles[name] for name in OBJECTS])
     yield other_sizes(chain, [profiles[name] for name in OBJECTS])
+
+
+def spiking(held: Iterable[Stage], channel: Channel) -> Row:
+    """A sensor of which a tenth of the samples is wild, while an object is held."""
+    took, wrong = [], set[str]()
+    instead = Quality.SUBSTITUTED if channel is Channel.GRIP else Quality.BAD
+    for made in held:
+        force = made.rig.plant.grip
+        broken = BenchFaults(spiking=frozenset({channel}))
+        took.append(noticed(made, Cause.SENSOR_FAILED, broken, PATIENCE)[0])
+        made.run(5.0)
+        shown = _shown(made, channel)
+        if shown.quality is not instead or "spikes" not in shown.cause:
+            wrong.add(f"{shown.quality}: {shown.cause}")
+        wrong |= _changed(made, force)
+        if {fault.cause for fault in faults(made)} != {Cause.SENSOR_FAILED}:
+            wrong.add("other faults")
+    return Row(
+        fault=f"{channel.value} spiking",
+        noticed=f"{Cause.SENSOR_FAILED}: {instead}",
+        took=tuple(took),
+        limit=SPIKES_WITHIN,
+        wrong=tuple(sorted(wrong)),
+    )
+
+
+def single(held: Iterable[Stage], channel: Channel, tries: int = SINGLE) -> Row:
+    """One wild sample at a time: nothing comes of it, and nobody is shown it."""
+    found = []
+    for made in held:
+        force = made.rig.plant.grip
+        for _ in range(tries):
+            made.rig.plant.faults = BenchFaults(spiking=frozenset({channel}))
+            made.until(lambda: _wild(made, channel), 60.0)  # noqa: B023
+            made.rig.plant.faults = HEALTHY
+            shown = [_shown(made, channel)]
+            for _ in range(3):
+                made.tick()
+                shown.append(_shown(made, channel))
+            made.run(1.5)
+            found += [
+                f"shown as {each.quality}"
+                for each in shown
+                if each.quality is not Quality.SUBSTITUTED
+                and not _right(made, channel, each)
+            ] or ["not shown"]
+            found += sorted(_changed(made, force))
+            found += [each.message for each in faults(made)]
+    return counted(f"{channel.value}: one wild sample", found, {"not shown"})
+
+
+def _changed(made: Stage, force: float) -> set[str]:
+    """What is not as it was when the object was held. [N]."""
+    wrong = set[str]()
+    if (made.state.machine, made.state.grip) != (Machine.READY, Grip.HOLDING):
+        wrong.add(f"{made.state.machine}, {made.state.grip}")
+    if abs(made.rig.plant.grip - force) > KEPT * force:
+        wrong.add("another force")
+    return wrong
+
+
+def _shown(made: Stage, channel: Channel) -> Reading:
+    """What a client is shown."""
+    measured = made.state.measured
+    assert measured is not None
+    found: Reading = getattr(measured, channel.value)
+    return found
+
+
+def _wild(made: Stage, channel: Channel) -> bool:
+    """Whether the modules said something wild just now."""
+    said: Reading = getattr(made.raw, channel.value)
+    return said.value is None or not _near(made, channel, said.value, WILD)
+
+
+def _right(made: Stage, channel: Channel, shown: Reading) -> bool:
+    return shown.value is not None and _near(made, channel, shown.value, RIGHT)
+
+
+def _near(made: Stage, channel: Channel, value: float, share: float) -> bool:
+    true: float = getattr(made.rig.plant, channel.value)
+    return abs(value - true) <= share * SPANS[channel.value]
 
 
 def over_force(chain: Chain, egg: Profile) -> Row:

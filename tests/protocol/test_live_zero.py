@@ -47,4 +47,11 @@ def test_at_3_6_and_at_21_milliamperes_it_still_speaks(microamperes: int) -> Non
 
 
 def test_no_number_is_no_reading() -> None:
-    assert GAUGE.reading(nan).value is None
+    reading = GAUGE.reading(nan)
+    assert reading.value is None
+    assert reading.cause == "the loop is broken: its current is not a number"
+
+
+def test_a_current_beyond_all_sense_is_told_in_a_few_digits() -> None:
+    cause = "the loop is broken: 3e+38 mA is above 21 mA"
+    assert GAUGE.reading(3e35).cause == cause

@@ -41,7 +41,12 @@ def test_faults_are_replaced_as_a_whole(daemon: Daemon) -> None:
     first = {"supply_kPa": 300, "leak_per_s": 0.5, "broken": ["grip"]}
     found = daemon.http.put(f"{BENCH}/faults", json=first).json()["faults"]
     assert (found["supply_kPa"], found["broken"]) == (300.0, ["grip"])
-    second = {"valve_offset_kPa": -5, "frozen": ["pressure", "opening"]}
+    second = {
+        "valve_offset_kPa": -5,
+        "shorted": ["grip"],
+        "frozen": ["pressure", "opening"],
+        "spiking": ["opening"],
+    }
     found = daemon.http.put(f"{BENCH}/faults", json=second).json()["faults"]
     assert found == {
         "supply_kPa": None,
@@ -53,7 +58,9 @@ def test_faults_are_replaced_as_a_whole(daemon: Daemon) -> None:
         "pad_friction": 1.0,
         "pull_N": 0.0,
         "broken": [],
+        "shorted": ["grip"],
         "frozen": ["opening", "pressure"],
+        "spiking": ["opening"],
         "opened": [],
     }
     found = daemon.http.delete(f"{BENCH}/faults").json()["faults"]

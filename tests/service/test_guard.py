@@ -75,6 +75,10 @@ def test_its_own_names_are_served(daemon: Daemon, host: str) -> None:
         "127.0.0.1.nip.io",
         "",
         "10.0.0.1",
+        "local\thost",
+        "x@localhost",
+        "localhost/",
+        "localhost:80:80",
     ],
 )
 def test_a_foreign_name_is_not_served(daemon: Daemon, host: str) -> None:
@@ -109,6 +113,9 @@ def test_a_foreign_page_cannot_move_the_gripper(daemon: Daemon, origin: str) -> 
         ("localhost:8765", "http://127.0.0.1:8765", 403),
         ("localhost:8765", "http://localhost", 403),
         ("localhost:8765", "http://[", 403),
+        ("localhost:8765", "http://local\thost:8765", 403),
+        ("localhost:8765", "http://localhost:8765/page", 403),
+        ("localhost:8765", "ftp://localhost:8765", 403),
     ],
 )
 def test_only_its_own_page_may_ask(

@@ -1,4 +1,4 @@
-"""The sensors: broken, out of range, stuck."""
+"""The sensors: broken, out of range, stuck, full of spikes."""
 
 from collections.abc import Iterator
 from types import MappingProxyType
