@@ -14,6 +14,8 @@ from typing import IO, NamedTuple
 from gripperd.config import shipped
 
 START = (sys.executable, "-m", "gripperd")
+PATIENCE = 120.0
+"""Longest wait for an answer, or for what is bound to happen. [s]"""
 
 
 class Daemon(NamedTuple):
@@ -48,7 +50,7 @@ def gripperd(*arguments: str, **environment: str) -> "subprocess.CompletedProces
         [*START, *arguments],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=2 * PATIENCE,
         check=False,
         env=os.environ | environment,
     )
@@ -72,7 +74,7 @@ def running(
         yield process
     finally:
         process.send_signal(signal.SIGTERM)
-        process.wait(30)
+        process.wait(PATIENCE)
         assert process.stdout is not None
         process.stdout.close()
 
@@ -100,7 +102,7 @@ def found(lines: IO[str], pattern: str) -> tuple[str, ...]:
     raise RuntimeError(message)
 
 
-def until(condition: Callable[[], object], patience: float = 20.0) -> None:
+def until(condition: Callable[[], object], patience: float = PATIENCE) -> None:
     """Wait for something that is bound to happen."""
     end = time.monotonic() + patience
     while not condition():

@@ -10,7 +10,7 @@ import httpx
 import pytest
 from pyModbusTCP.client import ModbusClient
 
-from tests.daemon import Daemon, running_daemon, until
+from tests.daemon import PATIENCE, Daemon, running_daemon, until
 from tests.interop.programs import needed
 
 OBJECTS = ("apple", "peach", "raw_egg", "grape")
@@ -25,7 +25,7 @@ def daemon(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Daemon]:
 @pytest.fixture
 def http(daemon: Daemon) -> Iterator[httpx.Client]:
     """A client; the jaws are open and empty when it comes."""
-    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=60) as http:
+    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=PATIENCE) as http:
         out_of_fault(http)
         until(lambda: http.get("/grippers/g0").json()["machine"] == "ready")
         command(http, {"type": "release"})
@@ -49,7 +49,7 @@ def out_of_fault(http: httpx.Client) -> None:
 
 def command(http: httpx.Client, body: dict[str, object]) -> dict[str, Any]:
     answer = http.post(
-        "/grippers/g0/commands", json=body, headers={"Prefer": "wait=30"}
+        "/grippers/g0/commands", json=body, headers={"Prefer": "wait=60"}
     )
     assert answer.status_code == 201, answer.text
     document: dict[str, Any] = answer.json()
@@ -274,5 +274,5 @@ def test_what_ran_is_told_phase_by_phase(http: httpx.Client) -> None:
 
 def test_the_settings_file_is_where_it_was_told(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
-        found = httpx.get(f"{daemon.url}/v1/info").json()
+        found = httpx.get(f"{daemon.url}/v1/info", timeout=PATIENCE).json()
     assert found["mode"] == "simulated"

@@ -8,7 +8,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from tests.daemon import Daemon, gripperd, running_daemon, settings_file
+from tests.daemon import PATIENCE, Daemon, gripperd, running_daemon, settings_file
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def test_a_bus_is_found_by_its_address(daemon: Daemon, folder: Path) -> None:
 
 
 def test_info_has_the_figures_of_every_bus(daemon: Daemon) -> None:
-    (bus,) = httpx.get(f"{daemon.url}/v1/info").json()["buses"]
+    (bus,) = httpx.get(f"{daemon.url}/v1/info", timeout=PATIENCE).json()["buses"]
     host, port = daemon.bench
     assert (bus["name"], bus["grippers"], bus["up"]) == (f"{host}:{port}", ["g0"], True)
     replies = sum(each["replies"] for each in bus["latency"])

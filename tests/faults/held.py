@@ -68,7 +68,7 @@ class Held:
 
     def give(self, key: str | None = None, **command: object) -> httpx.Response:
         """Give a command and wait for its end."""
-        headers = {"Prefer": "wait=30"} | ({"Idempotency-Key": key} if key else {})
+        headers = {"Prefer": "wait=60"} | ({"Idempotency-Key": key} if key else {})
         return self.http.post(COMMANDS, json=command, headers=headers)
 
     def over(self, given: httpx.Response) -> dict[str, Any]:
@@ -103,6 +103,19 @@ def grasped(daemon: Daemon, http: httpx.Client, folder: Path) -> Held:
     http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()
     done = Held(daemon, http, folder, 0.0).give(type="grasp", profile="raw_egg")
     assert done.json()["status"] == "succeeded", done.text
-    # The force is brought up to its target for a moment after the outcome is known.
-    time.sleep(1.0)
-    return Held(daemon, http, folder, http.get("/bench").json()["force_N"])
+    return Held(daemon, http, folder, settled_force(http))
+
+
+def settled_force(http: httpx.Client) -> float:
+    """Force of each jaw, once it is no more brought up to its target. [N]."""
+    force, before = 0.0, -1.0
+
+    def is_settled() -> bool:
+        nonlocal force, before
+        before = force
+        time.sleep(1.0)
+        force = float(http.get("/bench").json()["force_N"])
+        return abs(force - before) < SETTLED / 4 * force
+
+    until(is_settled)
+    return force
