@@ -9,7 +9,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, NamedTuple
+from typing import IO, Any, NamedTuple
+
+import httpx
 
 from gripperd.config import shipped
 
@@ -89,6 +91,8 @@ def running_daemon(
         assert process.stdout is not None
         host, port = found(process.stdout, r"TCP on ([\d.]+):(\d+)")
         (url,) = found(process.stdout, r"(http://\S+)")
+        # It is ready without its hardware, too, when that is slow.
+        until(lambda: attached(f"{url}/v1/grippers/g0"))
         yield Daemon(url, (host, int(port)), process)
 
 
@@ -100,6 +104,17 @@ def found(lines: IO[str], pattern: str) -> tuple[str, ...]:
             return match.groups()
     message = f"the program ended before it said {pattern}"
     raise RuntimeError(message)
+
+
+def document(url: str) -> dict[str, Any]:
+    """What the daemon answers there."""
+    found: dict[str, Any] = httpx.get(url, timeout=PATIENCE).json()
+    return found
+
+
+def attached(gripper: str) -> bool:
+    """Whether control has found the hardware as it is."""
+    return document(gripper).get("machine") not in {None, "offline", "attaching"}
 
 
 def until(condition: Callable[[], object], patience: float = PATIENCE) -> None:

@@ -10,7 +10,7 @@ import httpx
 import pytest
 from pyModbusTCP.client import ModbusClient
 
-from tests.daemon import PATIENCE, Daemon, running_daemon, until
+from tests.daemon import PATIENCE, Daemon, document, running_daemon, until
 from tests.interop.programs import needed
 
 OBJECTS = ("apple", "peach", "raw_egg", "grape")
@@ -274,5 +274,5 @@ def test_what_ran_is_told_phase_by_phase(http: httpx.Client) -> None:
 
 def test_the_settings_file_is_where_it_was_told(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
-        found = httpx.get(f"{daemon.url}/v1/info", timeout=PATIENCE).json()
+        found = document(f"{daemon.url}/v1/info")
     assert found["mode"] == "simulated"

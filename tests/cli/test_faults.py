@@ -11,8 +11,6 @@ import pytest
 
 from tests.daemon import PATIENCE, Daemon, children, gripperd, running_daemon, until
 
-GRIPPER = "/v1/grippers/g0"
-
 
 @pytest.fixture(scope="module")
 def daemon(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Daemon]:
@@ -49,20 +47,16 @@ def test_what_is_well_has_nothing_to_tell(daemon: Daemon) -> None:
 
 
 def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
-    url = daemon.url
-    httpx.put(
-        f"{url}/v1/bench/object", json={"profile": "apple"}, timeout=PATIENCE
-    ).raise_for_status()
+    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=PATIENCE) as http:
+        goes_through_a_fault(daemon, http)
+
+
+def goes_through_a_fault(daemon: Daemon, http: httpx.Client) -> None:
+    http.put("/bench/object", json={"profile": "apple"}).raise_for_status()
     assert said(daemon, "grasp", "apple").returncode == 0
     broken = {"valve_offset_kPa": 60}
-    httpx.put(
-        f"{url}/v1/bench/faults", json=broken, timeout=PATIENCE
-    ).raise_for_status()
-    until(
-        lambda: (
-            httpx.get(f"{url}{GRIPPER}", timeout=PATIENCE).json()["machine"] == "fault"
-        )
-    )
+    http.put("/bench/faults", json=broken).raise_for_status()
+    until(lambda: http.get("/grippers/g0").json()["machine"] == "fault")
 
     status = said(daemon, "status").stdout
     assert status.startswith("g0: fault, holding apple\n")
@@ -80,13 +74,11 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
     assert "to do: mend, reset, enable" in seen.stdout
     refuses(daemon, 1, "still so", "reset")
 
-    httpx.delete(f"{url}/v1/bench/faults", timeout=PATIENCE).raise_for_status()
+    http.delete("/bench/faults").raise_for_status()
     until(lambda: "to do: reset, enable" in said(daemon, "faults", "--active").stdout)
     assert ", gone since 20" in said(daemon, "status").stdout
-    current = httpx.get(f"{url}/v1/bench", timeout=PATIENCE).json()["current_mA"]
+    current = http.get("/bench").json()["current_mA"]
     assert said(daemon, "reset").stdout == "disabled, holding\n"
     assert json.loads(said(daemon, "enable", "--json").stdout)["machine"] == "ready"
-    assert (
-        httpx.get(f"{url}/v1/bench", timeout=PATIENCE).json()["current_mA"] == current
-    )
+    assert http.get("/bench").json()["current_mA"] == current
     assert "to do: reset" not in said(daemon, "faults").stdout

@@ -20,6 +20,7 @@ from gripperd.store import Version, versions_of
 from tests.daemon import (
     PATIENCE,
     children,
+    document,
     gripperd,
     running_daemon,
     settings_file,
@@ -189,13 +190,8 @@ def test_the_daemon_takes_up_a_version_at_once_and_keeps_it_while_it_holds(
         assert "the daemon that runs goes by it from now on" in told.stdout
         found = httpx.post(f"{url}/v1/predictions", json=asked, timeout=PATIENCE).json()
         assert found["model"] == "reference"
-        assert (
-            httpx.get(f"{url}/v1/grippers/g0", timeout=PATIENCE).json()["model"]
-            == "reference"
-        )
-        assert httpx.get(f"{url}/v1/info", timeout=PATIENCE).json()["models"] == {
-            "g0": "reference"
-        }
+        assert document(f"{url}/v1/grippers/g0")["model"] == "reference"
+        assert document(f"{url}/v1/info")["models"] == {"g0": "reference"}
         httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"}, timeout=PATIENCE)
         held = gripperd("grasp", "apple", "--current", "10.7", GRIPPERD_URL=url)
         # The rig is the configured one: what the version adds is in the model alone.
@@ -221,5 +217,5 @@ def test_the_daemon_takes_up_a_version_at_once_and_keeps_it_while_it_holds(
 
 
 def _state(url: str) -> dict[str, Any]:
-    found: dict[str, Any] = httpx.get(f"{url}/v1/grippers/g0", timeout=PATIENCE).json()
+    found: dict[str, Any] = document(f"{url}/v1/grippers/g0")
     return found

@@ -40,7 +40,7 @@ class Cell:
     def end(self, name: str, number: signal.Signals) -> None:
         process = self.parts[name].process
         process.send_signal(number)
-        process.wait(30)
+        process.wait(PATIENCE)
 
     @property
     def http(self) -> httpx.Client:

@@ -16,6 +16,7 @@ from tests.daemon import (
     START,
     Daemon,
     children,
+    document,
     found,
     gripperd,
     running,
@@ -44,9 +45,7 @@ def hold_an_egg(daemon: Daemon) -> float:
 
 
 def true_force(daemon: Daemon) -> float:
-    return float(
-        httpx.get(f"{daemon.url}/v1/bench", timeout=PATIENCE).json()["force_N"]
-    )
+    return float(document(f"{daemon.url}/v1/bench")["force_N"])
 
 
 def test_readiness_is_told_when_the_interface_answers_and_not_before(
@@ -62,8 +61,7 @@ def test_readiness_is_told_when_the_interface_answers_and_not_before(
             assert process.stdout is not None
             (url,) = found(process.stdout, r"(http://\S+)")
             assert answers(url)
-            state = httpx.get(f"{url}/v1/grippers/g0", timeout=PATIENCE).json()
-            assert state["machine"] == "ready"
+            until(lambda: document(f"{url}/v1/grippers/g0")["machine"] == "ready")
 
 
 def test_what_runs_for_months_loads_no_numerics_that_it_does_not_use(
@@ -82,7 +80,7 @@ def test_what_runs_for_months_loads_no_numerics_that_it_does_not_use(
 def test_the_service_is_killed_and_the_grip_does_not_notice(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         held = hold_an_egg(daemon)
-        egg = httpx.get(f"{daemon.url}/v1/profiles/raw_egg", timeout=PATIENCE).json()
+        egg = document(f"{daemon.url}/v1/profiles/raw_egg")
         mine = egg | {"name": "duck_egg", "diameter_mm": 45}
         httpx.post(
             f"{daemon.url}/v1/profiles", json=mine, timeout=PATIENCE
@@ -91,29 +89,24 @@ def test_the_service_is_killed_and_the_grip_does_not_notice(tmp_path: Path) -> N
         os.kill(service, signal.SIGKILL)
         until(lambda: children(daemon.process).get("service", service) != service)
         until(lambda: answers(daemon.url))
-        kept = httpx.get(f"{daemon.url}/v1/profiles/duck_egg", timeout=PATIENCE).json()
+        kept = document(f"{daemon.url}/v1/profiles/duck_egg")
         assert kept["diameter_mm"] == 45
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
-        state = httpx.get(f"{daemon.url}/v1/grippers/g0", timeout=PATIENCE).json()
+        state = document(f"{daemon.url}/v1/grippers/g0")
         assert (state["grip"], state["holding"]) == ("holding", "raw_egg")
 
 
 def test_control_is_killed_and_adopts_what_it_held(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         held = hold_an_egg(daemon)
-        written = httpx.get(f"{daemon.url}/v1/bench", timeout=PATIENCE).json()[
-            "current_mA"
-        ]
+        written = document(f"{daemon.url}/v1/bench")["current_mA"]
         first = children(daemon.process)["control"]
         os.kill(first, signal.SIGKILL)
         until(lambda: children(daemon.process).get("control", first) != first)
         until(lambda: answers(daemon.url))
-        state = httpx.get(f"{daemon.url}/v1/grippers/g0", timeout=PATIENCE).json()
+        state = document(f"{daemon.url}/v1/grippers/g0")
         assert (state["grip"], state["adopted"]) == ("holding", True)
-        assert (
-            httpx.get(f"{daemon.url}/v1/bench", timeout=PATIENCE).json()["current_mA"]
-            == written
-        )
+        assert document(f"{daemon.url}/v1/bench")["current_mA"] == written
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
 
 
@@ -173,9 +166,7 @@ def test_a_file_that_breaks_takes_nothing_down(tmp_path: Path) -> None:
         until(lambda: answers(daemon.url))
         assert children(daemon.process)["control"] == control
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
-        warnings = httpx.get(f"{daemon.url}/v1/info", timeout=PATIENCE).json()[
-            "warnings"
-        ]
+        warnings = document(f"{daemon.url}/v1/info")["warnings"]
         assert any(f"{folder}/plum.yaml:2: version" in warning for warning in warnings)
     checked = gripperd("config", "check", str(settings))
     assert checked.returncode == 0

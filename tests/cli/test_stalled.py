@@ -19,6 +19,7 @@ from gripperd.link.folder import private_folder
 from tests.daemon import (
     PATIENCE,
     children,
+    document,
     running,
     running_daemon,
     settings_file,
@@ -58,7 +59,7 @@ def test_a_stalled_control_is_started_anew_and_the_grip_stays(tmp_path: Path) ->
             os.kill(stalled, signal.SIGSTOP)
             until(lambda: children(daemon.process).get("control", stalled) != stalled)
             until(lambda: ready(daemon.url))
-        state = httpx.get(f"{daemon.url}/v1/grippers/g0", timeout=PATIENCE).json()
+        state = document(f"{daemon.url}/v1/grippers/g0")
         assert (state["grip"], state["adopted"]) == ("holding", True)
         forces = [each.grip for each in truth.states]
         assert max(forces) - min(forces) < 0.02 * forces[0]

@@ -16,7 +16,7 @@ PATIENCE = 60.0
 """Longest wait for anything. [s]"""
 SETTLED = 0.02
 """Share by which the force may differ. [-]"""
-MOVING = {"executing", "stopping"}
+UNSETTLED = {"executing", "stopping", "offline", "attaching"}
 COMMANDS = "/grippers/g0/commands"
 
 
@@ -54,7 +54,7 @@ class Held:
 
     def wrong(self) -> set[str]:
         """What is not as it was when the egg had been grasped, once nothing moves."""
-        until(lambda: self.answer("/grippers/g0").get("machine") not in MOVING)
+        until(lambda: self.answer("/grippers/g0").get("machine") not in UNSETTLED)
         state, truth = self.http.get("/grippers/g0").json(), self.http.get("/bench")
         force = truth.json()["force_N"]
         found = set[str]()
