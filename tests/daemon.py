@@ -16,7 +16,7 @@ import httpx
 from gripperd.config import shipped
 
 START = (sys.executable, "-m", "gripperd")
-PATIENCE = 120.0
+PATIENCE = 240.0
 """Longest wait for an answer, or for what is bound to happen. [s]"""
 
 
@@ -52,7 +52,7 @@ def gripperd(*arguments: str, **environment: str) -> "subprocess.CompletedProces
         [*START, *arguments],
         capture_output=True,
         text=True,
-        timeout=2 * PATIENCE,
+        timeout=PATIENCE,
         check=False,
         env=os.environ | environment,
     )

@@ -77,7 +77,8 @@ async def test_a_disk_that_failed_is_left_alone_for_a_moment(tmp_path: Path) -> 
     with suppress(Refused):
         await kept(archive)
     await archive.close()
-    assert not obstacle.exists() or time.monotonic() - began > REST
+    # A slow machine may come back when the moment is over.
+    assert not obstacle.exists() or time.monotonic() - began > 0.5
 
 
 async def test_a_damaged_history_is_replaced_and_the_new_one_says_so(
