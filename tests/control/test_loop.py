@@ -229,7 +229,7 @@ async def test_the_ramp_keeps_time_on_a_slow_bus(
     order: GraspOrder,
     eventually: Eventually,
 ) -> None:
-    async with relayed(modules, 0.004) as peer:
+    async with relayed(modules, 0.010) as peer:
         address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=SOON)
         async with open_bus(address) as bus, running(bus, chain, wired, 0.02) as loop:
             await eventually(lambda: loop.state().machine is Machine.READY)
@@ -238,7 +238,7 @@ async def test_the_ramp_keeps_time_on_a_slow_bus(
     assert command.started_at is not None
     assert command.completed_at is not None
     real_time = command.completed_at - command.started_at
-    assert command.result.duration == pytest.approx(real_time, rel=0.05)
+    assert command.result.duration == pytest.approx(real_time, rel=0.25)
 
 
 async def test_an_older_write_never_follows_a_stop(
