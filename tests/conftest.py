@@ -44,7 +44,7 @@ def eventually() -> Callable[[Callable[[], bool]], Awaitable[None]]:
     """Waits for what must happen soon and has no event to wait for."""
 
     async def wait(happened: Callable[[], bool]) -> None:
-        async with asyncio.timeout(20.0):
+        async with asyncio.timeout(60.0):
             while not happened():  # noqa: ASYNC110
                 await asyncio.sleep(0.001)
 
@@ -151,7 +151,7 @@ async def bench(modules: Modules) -> AsyncIterator[BenchServer]:
 def bench_address(bench: BenchServer) -> TcpAddress:
     """Where the rig listens; the time-out is generous, so that it tells nothing."""
     host, _, port = bench.address.rpartition(":")
-    return TcpAddress(host=host, port=int(port), timeout=5.0)
+    return TcpAddress(host=host, port=int(port), timeout=60.0)
 
 
 @pytest.fixture

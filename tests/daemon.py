@@ -9,11 +9,15 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, NamedTuple
+from typing import IO, Any, NamedTuple
+
+import httpx
 
 from gripperd.config import shipped
 
 START = (sys.executable, "-m", "gripperd")
+PATIENCE = 240.0
+"""Longest wait for an answer, or for what is bound to happen. [s]"""
 
 
 class Daemon(NamedTuple):
@@ -48,7 +52,7 @@ def gripperd(*arguments: str, **environment: str) -> "subprocess.CompletedProces
         [*START, *arguments],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=PATIENCE,
         check=False,
         env=os.environ | environment,
     )
@@ -72,7 +76,7 @@ def running(
         yield process
     finally:
         process.send_signal(signal.SIGTERM)
-        process.wait(30)
+        process.wait(PATIENCE)
         assert process.stdout is not None
         process.stdout.close()
 
@@ -87,6 +91,8 @@ def running_daemon(
         assert process.stdout is not None
         host, port = found(process.stdout, r"TCP on ([\d.]+):(\d+)")
         (url,) = found(process.stdout, r"(http://\S+)")
+        # It is ready without its hardware, too, when that is slow.
+        until(lambda: attached(f"{url}/v1/grippers/g0"))
         yield Daemon(url, (host, int(port)), process)
 
 
@@ -100,7 +106,18 @@ def found(lines: IO[str], pattern: str) -> tuple[str, ...]:
     raise RuntimeError(message)
 
 
-def until(condition: Callable[[], object], patience: float = 20.0) -> None:
+def document(url: str) -> dict[str, Any]:
+    """What the daemon answers there."""
+    found: dict[str, Any] = httpx.get(url, timeout=PATIENCE).json()
+    return found
+
+
+def attached(gripper: str) -> bool:
+    """Whether control has found the hardware as it is."""
+    return document(gripper).get("machine") not in {None, "offline", "attaching"}
+
+
+def until(condition: Callable[[], object], patience: float = PATIENCE) -> None:
     """Wait for something that is bound to happen."""
     end = time.monotonic() + patience
     while not condition():

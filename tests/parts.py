@@ -14,10 +14,7 @@ from typing import IO, NamedTuple
 from gripperd.cli.notify import VARIABLE, listen, parse
 from gripperd.link.bench import BenchState, ReadBench
 from gripperd.link.client import Client
-from tests.daemon import START
-
-PATIENCE = 60.0
-"""Longest wait for a part to become ready. [s]"""
+from tests.daemon import PATIENCE, START
 
 
 class Part(NamedTuple):

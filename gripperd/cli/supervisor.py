@@ -22,8 +22,9 @@ from gripperd.cli.notify import VARIABLE, listen, parse
 from gripperd.cli.watchdog import INTERVAL, OWNER
 from gripperd.errors import GripperdError
 
-READY_WITHIN = 30.0
-"""Longest time for a process to become ready. [s]"""
+READY_WITHIN = 60.0
+"""Longest time for a process to become ready, as for the units of systemd: a start
+takes 2 s of processor, and a busy machine is slow to give them. [s]"""
 GRACE = 5.0
 """Time for a process to end by itself before it is killed. [s]"""
 FIRST_PAUSE, LONGEST_PAUSE = 1.0, 10.0

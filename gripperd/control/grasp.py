@@ -13,7 +13,7 @@ from gripperd.control.held import Held
 from gripperd.control.plan import Plan
 from gripperd.control.profile import Mode
 from gripperd.control.proof import DURATION, Proof
-from gripperd.control.setpoint import Ramp, reached, within
+from gripperd.control.setpoint import LONGEST_STEP, Ramp, reached, within
 from gripperd.model import Chain, Direction
 from gripperd.signals import Measurement
 
@@ -94,6 +94,8 @@ class Grasp:
         if self._over_limit():
             self._reduce()
             return Outcome.CRUSH_LIMIT
+        # A stall of the loop is no time in which anything could be felt.
+        dt = min(dt, LONGEST_STEP)
         match self.phase:
             case Phase.APPROACH:
                 return self._approach(measured, dt)

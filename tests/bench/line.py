@@ -24,11 +24,13 @@ from gripperd.drivers.bus import (
 )
 from gripperd.protocol.modules import InputModule, ModuleDialect, OutputModule
 
-SOON = 20.0
+from ..drivers.steady import steady  # noqa: TID252
+
+SOON = 60.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
 PATIENCE = 0.1
 """Time-out of a serial line, and so the silence that drains it. [s]"""
-PATIENT = 5.0
+PATIENT = 60.0
 """Time-out where a busy machine must not make a test fail. [s]"""
 
 DESCRIBED: Mapping[str, OutputModule | InputModule] = {
@@ -71,6 +73,7 @@ async def on_line(
             host, _, port = bench.address.rpartition(":")
             address = TcpAddress(host=host, port=int(port), timeout=patience)
             async with open_bus(address) as bus:
+                steady(bus)
                 await bus.up.wait()
                 yield OnLine(bench, bus)
         return
@@ -81,5 +84,6 @@ async def on_line(
         serve_serial(speak(modules), path, None, faults=faults) as bench,
         open_bus(open_at(port=str(path), timeout=patience)) as bus,
     ):
+        steady(bus)
         await bus.up.wait()
         yield OnLine(bench, bus)

@@ -188,4 +188,4 @@ async def test_our_driver_arms_a_watchdog_and_notices_its_trip(
 
 def pymodbus(line: OnLine) -> AsyncModbusTcpClient:
     host, _, port = line.bench.address.rpartition(":")
-    return AsyncModbusTcpClient(host, port=int(port), timeout=5, retries=0)
+    return AsyncModbusTcpClient(host, port=int(port), timeout=60, retries=0)

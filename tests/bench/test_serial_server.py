@@ -27,6 +27,7 @@ from gripperd.protocol.modbus import Read, Table, Write
 from gripperd.protocol.rtu import crc
 from tests.interop.programs import needed
 
+from ..drivers.steady import steady  # noqa: TID252
 from .line import PATIENT, SOON, fitted
 
 T = TypeVar("T")
@@ -148,7 +149,7 @@ async def test_a_piece_of_a_frame_is_forgotten_after_a_silence(
 ) -> None:
     def talk(port: serial.Serial) -> bytes:
         port.write(sealed(1, 3, 0, 0, 0, 1)[:5])
-        time.sleep(0.2)
+        time.sleep(1.0)
         port.write(sealed(1, 3, 0, 0, 0, 1))
         return port.read(7)
 
@@ -196,6 +197,7 @@ async def test_our_bus_drives_the_valve_at_its_pace(rig: Rig, tmp_path: Path) ->
         rtu(rig, tmp_path / "line", Pace(baud=115_200, silence=1.75e-3)),
         open_bus(address) as bus,
     ):
+        steady(bus)
         await bus.up.wait()
         assert await bus.ask(Read(1, Table.HOLDING, 0)) == (0,)
         assert await bus.ask(Write(1, 0, (10_700,))) == (10_700,)

@@ -1,5 +1,6 @@
 """Faults of the wire: the queue, and each of them as the driver meets it."""
 
+from contextlib import nullcontext
 from pathlib import Path
 from random import Random
 
@@ -23,6 +24,7 @@ from gripperd.protocol.modbus import Read, Table, Write
 from gripperd.protocol.modules import OutputModule
 from gripperd.signals import Quality
 
+from ..drivers.steady import unsteady  # noqa: TID252
 from .line import DESCRIBED, PATIENCE, OnLine, on_line
 
 READ = Asked(frozenset({2}), writes=False, drives=False)
@@ -123,7 +125,8 @@ async def is_not_believed(
 ) -> None:
     """A fault befalls a request, and the bus is up again soon."""
     line.bench.faults.set([WireFault(kind=fault, delay=1.5 * PATIENCE)])
-    with pytest.raises(error):
+    late = fault is WireFaultKind.LATE
+    with unsteady(line.bus) if late else nullcontext(), pytest.raises(error):
         await line.bus.ask(request)
     await line.bus.up.wait()
 

@@ -16,7 +16,15 @@ import pytest
 
 from gripperd import __version__
 from gripperd.config import shipped
-from tests.daemon import START, Daemon, gripperd, running_daemon, settings_file
+from tests.daemon import (
+    PATIENCE,
+    START,
+    Daemon,
+    document,
+    gripperd,
+    running_daemon,
+    settings_file,
+)
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +80,9 @@ def test_the_shipped_configuration_is_usable() -> None:
 
 def test_a_grasp_from_the_command_line(daemon: Daemon) -> None:
     url = daemon.url
-    httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"}).raise_for_status()
+    httpx.put(
+        f"{url}/v1/bench/object", json={"profile": "apple"}, timeout=PATIENCE
+    ).raise_for_status()
     held = gripperd("grasp", "apple", "--current", "10.7", GRIPPERD_URL=url)
     assert held.returncode == 0, held.stderr
     assert held.stdout.startswith("held: 46.")
@@ -95,14 +105,14 @@ def test_a_grasp_from_the_command_line(daemon: Daemon) -> None:
 
 def test_enabling_and_disabling_moves_nothing(daemon: Daemon) -> None:
     url = daemon.url
-    before = httpx.get(f"{url}/v1/bench").json()["current_mA"]
+    before = document(f"{url}/v1/bench")["current_mA"]
     assert gripperd("disable", GRIPPERD_URL=url).stdout.startswith("disabled, ")
     refused = gripperd("grasp", "apple", GRIPPERD_URL=url)
     assert refused.returncode == 1
     assert "a command is not possible while the gripper is disabled" in refused.stderr
     assert "possible now: enable" in refused.stderr
     assert gripperd("enable", GRIPPERD_URL=url).stdout.startswith("ready, ")
-    assert httpx.get(f"{url}/v1/bench").json()["current_mA"] == before
+    assert document(f"{url}/v1/bench")["current_mA"] == before
 
 
 def test_help_names_units_and_the_version_is_told() -> None:
@@ -230,6 +240,6 @@ def test_the_journal_gets_no_time_stamps(
     with process.stderr as log:
         line = log.readline()
         process.terminate()
-        process.wait(30)
+        process.wait(PATIENCE)
     assert "bench listens" in line
     assert (re.match(r"\d\d:\d\d:\d\d ", line) is not None) is stamped

@@ -9,9 +9,7 @@ from subprocess import CompletedProcess
 import httpx
 import pytest
 
-from tests.daemon import Daemon, children, gripperd, running_daemon, until
-
-GRIPPER = "/v1/grippers/g0"
+from tests.daemon import PATIENCE, Daemon, children, gripperd, running_daemon, until
 
 
 @pytest.fixture(scope="module")
@@ -35,11 +33,11 @@ def outlives_control(daemon: Daemon, fault: dict[str, str]) -> None:
     first = children(daemon.process)["control"]
     os.kill(first, signal.SIGKILL)
     until(lambda: children(daemon.process).get("control", first) != first)
-    until(lambda: fault["id"][:8] in said(daemon, "status").stdout, 60)
+    until(lambda: fault["id"][:8] in said(daemon, "status").stdout)
     assert said(daemon, "status").stdout.startswith("g0: fault, holding")
     history = f"{daemon.url}/v1/history?kind=adoption"
     told = f"adopted a latched fault: {fault['cause']}: {fault['message']}"
-    until(lambda: told in httpx.get(history).text)
+    until(lambda: told in httpx.get(history, timeout=PATIENCE).text)
 
 
 def test_what_is_well_has_nothing_to_tell(daemon: Daemon) -> None:
@@ -49,12 +47,16 @@ def test_what_is_well_has_nothing_to_tell(daemon: Daemon) -> None:
 
 
 def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
-    url = daemon.url
-    httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"}).raise_for_status()
+    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=PATIENCE) as http:
+        goes_through_a_fault(daemon, http)
+
+
+def goes_through_a_fault(daemon: Daemon, http: httpx.Client) -> None:
+    http.put("/bench/object", json={"profile": "apple"}).raise_for_status()
     assert said(daemon, "grasp", "apple").returncode == 0
     broken = {"valve_offset_kPa": 60}
-    httpx.put(f"{url}/v1/bench/faults", json=broken).raise_for_status()
-    until(lambda: httpx.get(f"{url}{GRIPPER}").json()["machine"] == "fault")
+    http.put("/bench/faults", json=broken).raise_for_status()
+    until(lambda: http.get("/grippers/g0").json()["machine"] == "fault")
 
     status = said(daemon, "status").stdout
     assert status.startswith("g0: fault, holding apple\n")
@@ -72,11 +74,11 @@ def test_a_fault_is_seen_acknowledged_mended_and_reset(daemon: Daemon) -> None:
     assert "to do: mend, reset, enable" in seen.stdout
     refuses(daemon, 1, "still so", "reset")
 
-    httpx.delete(f"{url}/v1/bench/faults").raise_for_status()
+    http.delete("/bench/faults").raise_for_status()
     until(lambda: "to do: reset, enable" in said(daemon, "faults", "--active").stdout)
     assert ", gone since 20" in said(daemon, "status").stdout
-    current = httpx.get(f"{url}/v1/bench").json()["current_mA"]
+    current = http.get("/bench").json()["current_mA"]
     assert said(daemon, "reset").stdout == "disabled, holding\n"
     assert json.loads(said(daemon, "enable", "--json").stdout)["machine"] == "ready"
-    assert httpx.get(f"{url}/v1/bench").json()["current_mA"] == current
+    assert http.get("/bench").json()["current_mA"] == current
     assert "to do: reset" not in said(daemon, "faults").stdout

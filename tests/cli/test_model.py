@@ -17,7 +17,15 @@ from gripperd.config.lineage import Added, Gap, Recorded
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.model import StaticMuscle
 from gripperd.store import Version, versions_of
-from tests.daemon import children, gripperd, running_daemon, settings_file, until
+from tests.daemon import (
+    PATIENCE,
+    children,
+    document,
+    gripperd,
+    running_daemon,
+    settings_file,
+    until,
+)
 
 PREDICT = ("predict", "--current", "10.7", "--diameter", "65", "--json")
 FRICTION = 20.0
@@ -176,15 +184,15 @@ def test_the_daemon_takes_up_a_version_at_once_and_keeps_it_while_it_holds(
     with running_daemon(tmp_path) as daemon:
         url = daemon.url
         asked = {"current_mA": 10.7, "diameter_mm": 65}
-        found = httpx.post(f"{url}/v1/predictions", json=asked).json()
+        found = httpx.post(f"{url}/v1/predictions", json=asked, timeout=PATIENCE).json()
         assert found["model"] == "reference-1"
         told = gripperd("model", "activate", "0", *config)
         assert "the daemon that runs goes by it from now on" in told.stdout
-        found = httpx.post(f"{url}/v1/predictions", json=asked).json()
+        found = httpx.post(f"{url}/v1/predictions", json=asked, timeout=PATIENCE).json()
         assert found["model"] == "reference"
-        assert httpx.get(f"{url}/v1/grippers/g0").json()["model"] == "reference"
-        assert httpx.get(f"{url}/v1/info").json()["models"] == {"g0": "reference"}
-        httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"})
+        assert document(f"{url}/v1/grippers/g0")["model"] == "reference"
+        assert document(f"{url}/v1/info")["models"] == {"g0": "reference"}
+        httpx.put(f"{url}/v1/bench/object", json={"profile": "apple"}, timeout=PATIENCE)
         held = gripperd("grasp", "apple", "--current", "10.7", GRIPPERD_URL=url)
         # The rig is the configured one: what the version adds is in the model alone.
         assert held.stdout.startswith("held: 46.")
@@ -209,5 +217,5 @@ def test_the_daemon_takes_up_a_version_at_once_and_keeps_it_while_it_holds(
 
 
 def _state(url: str) -> dict[str, Any]:
-    found: dict[str, Any] = httpx.get(f"{url}/v1/grippers/g0").json()
+    found: dict[str, Any] = document(f"{url}/v1/grippers/g0")
     return found

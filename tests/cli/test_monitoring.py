@@ -5,10 +5,15 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import httpx
 import pytest
 
-from tests.daemon import Daemon, gripperd, running_daemon, settings_file
+from tests.daemon import (
+    Daemon,
+    document,
+    gripperd,
+    running_daemon,
+    settings_file,
+)
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +65,7 @@ def test_a_bus_is_found_by_its_address(daemon: Daemon, folder: Path) -> None:
 
 
 def test_info_has_the_figures_of_every_bus(daemon: Daemon) -> None:
-    (bus,) = httpx.get(f"{daemon.url}/v1/info").json()["buses"]
+    (bus,) = document(f"{daemon.url}/v1/info")["buses"]
     host, port = daemon.bench
     assert (bus["name"], bus["grippers"], bus["up"]) == (f"{host}:{port}", ["g0"], True)
     replies = sum(each["replies"] for each in bus["latency"])

@@ -13,7 +13,7 @@ import httpx
 import pytest
 
 from gripperd.bench.placed import ObjectState
-from tests.daemon import gripperd, settings_file, until
+from tests.daemon import PATIENCE, gripperd, settings_file, until
 from tests.parts import Part, Truth, part
 from tests.wiretap import Wiretap, wiretap
 
@@ -40,12 +40,12 @@ class Cell:
     def end(self, name: str, number: signal.Signals) -> None:
         process = self.parts[name].process
         process.send_signal(number)
-        process.wait(30)
+        process.wait(PATIENCE)
 
     @property
     def http(self) -> httpx.Client:
         url = self.parts["service"].facts["ADDRESS"]
-        return httpx.Client(base_url=f"{url}/v1", timeout=60)
+        return httpx.Client(base_url=f"{url}/v1", timeout=PATIENCE)
 
     def state(self) -> dict[str, Any]:
         with self.http as http:

@@ -12,9 +12,11 @@ import httpx
 import pytest
 
 from tests.daemon import (
+    PATIENCE,
     START,
     Daemon,
     children,
+    document,
     found,
     gripperd,
     running,
@@ -26,24 +28,24 @@ from tests.daemon import (
 
 def answers(url: str) -> bool:
     try:
-        return httpx.get(f"{url}/v1/health/ready").is_success
+        return httpx.get(f"{url}/v1/health/ready", timeout=PATIENCE).is_success
     except httpx.TransportError:
         return False
 
 
 def hold_an_egg(daemon: Daemon) -> float:
-    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=60) as http:
+    with httpx.Client(base_url=f"{daemon.url}/v1", timeout=PATIENCE) as http:
         http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()
         body = {"type": "grasp", "profile": "raw_egg"}
         done = http.post(
-            "/grippers/g0/commands", json=body, headers={"Prefer": "wait=30"}
+            "/grippers/g0/commands", json=body, headers={"Prefer": "wait=60"}
         ).json()
     assert done["status"] == "succeeded"
     return float(done["result"]["force_N"])
 
 
 def true_force(daemon: Daemon) -> float:
-    return float(httpx.get(f"{daemon.url}/v1/bench").json()["force_N"])
+    return float(document(f"{daemon.url}/v1/bench")["force_N"])
 
 
 def test_readiness_is_told_when_the_interface_answers_and_not_before(
@@ -51,7 +53,7 @@ def test_readiness_is_told_when_the_interface_answers_and_not_before(
 ) -> None:
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
         manager.bind(str(tmp_path / "notify"))
-        manager.settimeout(60)
+        manager.settimeout(PATIENCE)
         arguments = ("run", "--config", str(settings_file(tmp_path)))
         with running(*arguments, NOTIFY_SOCKET=str(tmp_path / "notify")) as process:
             told = manager.recv(4096).decode()
@@ -59,8 +61,7 @@ def test_readiness_is_told_when_the_interface_answers_and_not_before(
             assert process.stdout is not None
             (url,) = found(process.stdout, r"(http://\S+)")
             assert answers(url)
-            state = httpx.get(f"{url}/v1/grippers/g0").json()
-            assert state["machine"] == "ready"
+            until(lambda: document(f"{url}/v1/grippers/g0")["machine"] == "ready")
 
 
 def test_what_runs_for_months_loads_no_numerics_that_it_does_not_use(
@@ -79,30 +80,33 @@ def test_what_runs_for_months_loads_no_numerics_that_it_does_not_use(
 def test_the_service_is_killed_and_the_grip_does_not_notice(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         held = hold_an_egg(daemon)
-        egg = httpx.get(f"{daemon.url}/v1/profiles/raw_egg").json()
+        egg = document(f"{daemon.url}/v1/profiles/raw_egg")
         mine = egg | {"name": "duck_egg", "diameter_mm": 45}
-        httpx.post(f"{daemon.url}/v1/profiles", json=mine).raise_for_status()
-        os.kill(children(daemon.process)["service"], signal.SIGKILL)
-        until(lambda: not answers(daemon.url))
+        httpx.post(
+            f"{daemon.url}/v1/profiles", json=mine, timeout=PATIENCE
+        ).raise_for_status()
+        service = children(daemon.process)["service"]
+        os.kill(service, signal.SIGKILL)
+        until(lambda: children(daemon.process).get("service", service) != service)
         until(lambda: answers(daemon.url))
-        kept = httpx.get(f"{daemon.url}/v1/profiles/duck_egg").json()
+        kept = document(f"{daemon.url}/v1/profiles/duck_egg")
         assert kept["diameter_mm"] == 45
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
-        state = httpx.get(f"{daemon.url}/v1/grippers/g0").json()
+        state = document(f"{daemon.url}/v1/grippers/g0")
         assert (state["grip"], state["holding"]) == ("holding", "raw_egg")
 
 
 def test_control_is_killed_and_adopts_what_it_held(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         held = hold_an_egg(daemon)
-        written = httpx.get(f"{daemon.url}/v1/bench").json()["current_mA"]
+        written = document(f"{daemon.url}/v1/bench")["current_mA"]
         first = children(daemon.process)["control"]
         os.kill(first, signal.SIGKILL)
         until(lambda: children(daemon.process).get("control", first) != first)
         until(lambda: answers(daemon.url))
-        state = httpx.get(f"{daemon.url}/v1/grippers/g0").json()
+        state = document(f"{daemon.url}/v1/grippers/g0")
         assert (state["grip"], state["adopted"]) == ("holding", True)
-        assert httpx.get(f"{daemon.url}/v1/bench").json()["current_mA"] == written
+        assert document(f"{daemon.url}/v1/bench")["current_mA"] == written
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
 
 
@@ -110,7 +114,7 @@ def test_the_children_end_with_their_supervisor(tmp_path: Path) -> None:
     with running_daemon(tmp_path) as daemon:
         pids = children(daemon.process).values()
         daemon.process.kill()
-        daemon.process.wait(10)
+        daemon.process.wait(PATIENCE)
         until(lambda: not any(Path(f"/proc/{pid}/task").exists() for pid in pids))
 
 
@@ -159,10 +163,10 @@ def test_a_file_that_breaks_takes_nothing_down(tmp_path: Path) -> None:
         folder.mkdir(parents=True)
         (folder / "plum.yaml").write_text("name: plum\nversion: many\n")
         settings.write_text(good)
-        until(lambda: answers(daemon.url), 40)
+        until(lambda: answers(daemon.url))
         assert children(daemon.process)["control"] == control
         assert true_force(daemon) == pytest.approx(held, rel=0.05)
-        warnings = httpx.get(f"{daemon.url}/v1/info").json()["warnings"]
+        warnings = document(f"{daemon.url}/v1/info")["warnings"]
         assert any(f"{folder}/plum.yaml:2: version" in warning for warning in warnings)
     checked = gripperd("config", "check", str(settings))
     assert checked.returncode == 0
@@ -179,7 +183,7 @@ def test_who_is_told_to_end_in_the_middle_of_the_start_ends_quietly(
         # Until it is killed, control goes on with its start.
         os.kill(children(process)["service"], signal.SIGSTOP)
         process.terminate()
-        assert process.wait(60) == 0
+        assert process.wait(PATIENCE) == 0
         log.seek(0)
         said = log.read()
     assert "Traceback" not in said
@@ -194,7 +198,7 @@ def test_a_report_that_nobody_hears_ends_nothing(tmp_path: Path) -> None:
         process = subprocess.Popen(arguments, stderr=log, env=nowhere)
         until(lambda: "nobody hears" in (tmp_path / "log").read_text())
         process.terminate()
-        assert process.wait(60) == 0
+        assert process.wait(PATIENCE) == 0
     assert "Traceback" not in (tmp_path / "log").read_text()
 
 

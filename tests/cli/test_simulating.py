@@ -14,7 +14,7 @@ from pyModbusTCP.client import ModbusClient
 
 from tests.daemon import START, gripperd, settings_file
 
-PATIENT = 20.0
+PATIENT = 60.0
 """[s]"""
 
 
@@ -33,7 +33,7 @@ def listening(folder: Path, *arguments: str) -> Iterator[str]:
         yield next(lines, "it ended")
     finally:
         process.terminate()
-        process.wait(30)
+        process.wait(PATIENT)
         process.stderr.close()
 
 

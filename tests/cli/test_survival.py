@@ -13,7 +13,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.daemon import Daemon, children, running_daemon, until
+from tests.daemon import PATIENCE, Daemon, children, running_daemon, until
 
 COMMANDS = "/v1/grippers/g0/commands"
 EGG = {"type": "grasp", "profile": "raw_egg"}
@@ -35,7 +35,7 @@ def daemon(folder: Path) -> Iterator[Daemon]:
 @pytest.fixture
 def http(daemon: Daemon) -> Iterator[httpx.Client]:
     """A client of the daemon, ready, with open jaws."""
-    with httpx.Client(base_url=daemon.url, timeout=30) as http:
+    with httpx.Client(base_url=daemon.url, timeout=PATIENCE) as http:
         until(lambda: attached(http))
         http.delete("/v1/bench/faults")
         settle(http)
@@ -69,7 +69,7 @@ def settle(http: httpx.Client) -> None:
 
     until(is_ready)
     http.delete("/v1/bench/object")
-    http.post(f"{COMMANDS}?wait_s=20", json={"type": "release"})
+    http.post(f"{COMMANDS}?wait_s=60", json={"type": "release"})
     until(is_ready)
 
 
@@ -89,7 +89,7 @@ def over(http: httpx.Client, place: str) -> dict[str, Any]:
         found = answer(http, place) or {}
         return found.get("completed_at") is not None
 
-    until(is_over, patience=40)
+    until(is_over)
     return found
 
 
@@ -138,7 +138,7 @@ def test_an_adoption_after_a_restart_is_in_the_history(
     daemon: Daemon, http: httpx.Client
 ) -> None:
     http.put("/v1/bench/object", json={"profile": "raw_egg"})
-    held = http.post(f"{COMMANDS}?wait_s=20", json=EGG).json()
+    held = http.post(f"{COMMANDS}?wait_s=60", json=EGG).json()
     assert held["status"] == "succeeded"
     current = held["result"]["current_mA"]
     dead = children(daemon.process)["control"]
@@ -158,7 +158,7 @@ def test_without_its_disk_it_holds_stops_and_releases_and_says_so(
     daemon: Daemon, http: httpx.Client, folder: Path
 ) -> None:
     http.put("/v1/bench/object", json={"profile": "raw_egg"})
-    http.post(f"{COMMANDS}?wait_s=20", json=EGG).raise_for_status()
+    http.post(f"{COMMANDS}?wait_s=60", json=EGG).raise_for_status()
     force = http.get("/v1/bench").json()["force_N"]
     dead = children(daemon.process)["service"]
     # A file where the folder was: nothing can be kept, whoever asks for it.
@@ -174,7 +174,7 @@ def test_without_its_disk_it_holds_stops_and_releases_and_says_so(
     ready = http.get("/v1/health/ready").json()
     assert "history cannot be kept" in ready["degraded"]
     assert ready["degraded"] in http.get("/v1/info").json()["warnings"]
-    released = http.post(f"{COMMANDS}?wait_s=20", json={"type": "release"})
+    released = http.post(f"{COMMANDS}?wait_s=60", json={"type": "release"})
     assert (released.status_code, released.json()["status"]) == (202, "succeeded")
 
     (folder / "state").unlink()
@@ -193,7 +193,7 @@ def test_an_emergency_stop_holds_until_it_is_released_and_reset(
     http: httpx.Client,
 ) -> None:
     http.put("/v1/bench/object", json={"profile": "raw_egg"})
-    http.post(f"{COMMANDS}?wait_s=20", json=EGG).raise_for_status()
+    http.post(f"{COMMANDS}?wait_s=60", json=EGG).raise_for_status()
     force = http.get("/v1/bench").json()["force_N"]
     http.put("/v1/bench/faults", json={"opened": ["estop"]})
 

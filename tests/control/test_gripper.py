@@ -338,3 +338,17 @@ def test_a_measurement_the_model_cannot_explain_is_told_in_the_log(
     command = ready.complete(ordered(egg, Mode.FORCE))
     assert command.status is Status.SUCCEEDED
     assert "valve, air, sensor or model is off" in command.log[-1]
+
+
+@pytest.mark.parametrize("after", range(20, 40, 4))
+def test_a_stall_of_the_loop_is_no_time_in_which_nothing_was_felt(
+    ready: Stage, profiles: Profiles, after: int
+) -> None:
+    hasty = replace(profiles["apple"], approach=40e-3, ramp=20e-3)
+    ready.rig.plant.place(real(hasty))
+    command = ready.submit(ordered(hasty, Mode.CURRENT))
+    for _ in range(after):
+        ready.tick()
+    ready.tick(0.5)
+    ready.until(lambda: ready.command(command).final)
+    assert ready.command(command).status is Status.SUCCEEDED

@@ -28,7 +28,7 @@ from .stage import ordered, real
 
 Wired = Callable[[ModbusBus], AnalogRig]
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
-SOON = 20.0
+SOON = 60.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
 
 
@@ -161,7 +161,7 @@ async def test_a_lost_bench_ends_the_command_and_is_adopted_when_it_is_back(
     async with serve_bench(modules, "127.0.0.1", 0) as bench:
         port = int(bench.address.rpartition(":")[2])
         now = bench._now
-        address = TcpAddress(host="127.0.0.1", port=port, timeout=5.0)
+        address = TcpAddress(host="127.0.0.1", port=port, timeout=SOON)
         bus_context = open_bus(address)
         bus = await bus_context.__aenter__()
         loop_context = running(bus, chain, wired)
@@ -229,8 +229,8 @@ async def test_the_ramp_keeps_time_on_a_slow_bus(
     order: GraspOrder,
     eventually: Eventually,
 ) -> None:
-    async with relayed(modules, 0.004) as peer:
-        address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=5.0)
+    async with relayed(modules, 0.010) as peer:
+        address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=SOON)
         async with open_bus(address) as bus, running(bus, chain, wired, 0.02) as loop:
             await eventually(lambda: loop.state().machine is Machine.READY)
             command = await complete(loop, order)
@@ -238,7 +238,7 @@ async def test_the_ramp_keeps_time_on_a_slow_bus(
     assert command.started_at is not None
     assert command.completed_at is not None
     real_time = command.completed_at - command.started_at
-    assert command.result.duration == pytest.approx(real_time, rel=0.05)
+    assert command.result.duration == pytest.approx(real_time, rel=0.25)
 
 
 async def test_an_older_write_never_follows_a_stop(

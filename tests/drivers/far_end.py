@@ -1,7 +1,10 @@
 """The far end of a bus of either kind, honest or not, as a test tells it."""
 
 import asyncio
+import fcntl
 import os
+import sys
+import termios
 import time
 import tty
 from abc import ABC, abstractmethod
@@ -16,6 +19,7 @@ from gripperd.drivers.bus import ModbusBus, RtuAddress, TcpAddress, open_bus
 from gripperd.protocol.modbus import Read, Table, Write
 
 from .peer import SOON, Line, Peer, listening, up
+from .steady import steady
 
 PATIENCE = 0.1
 """Time-out of the serial lines, and so the silence that drains them. [s]"""
@@ -116,6 +120,12 @@ class RtuFarEnd(FarEnd):
         """Of the device that the path leads to."""
         return Path(os.ttyname(self._slave)).name
 
+    @property
+    def unread(self) -> int:
+        """Octets that the kernel keeps for the other end."""
+        room = fcntl.ioctl(self._slave, termios.FIONREAD, bytes(4))
+        return int.from_bytes(room, sys.byteorder)
+
     def plug(self) -> None:
         self._master, self._slave = os.openpty()
         tty.setraw(self._slave)
@@ -189,6 +199,7 @@ async def over_tcp(patience: float) -> AsyncIterator[tuple[ModbusBus, TcpFarEnd]
     async with listening(lambda line, frame: None) as peer:
         address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=patience)
         async with open_bus(address) as bus:
+            steady(bus)
             await up(bus)
             yield bus, TcpFarEnd(peer)
 
@@ -216,6 +227,7 @@ async def over_rtu(
             port=str(path), timeout=patience, silence=silence, local_echo=local_echo
         )
         async with open_bus(address) as bus:
+            steady(bus)
             await up(bus)
             yield bus, far
 

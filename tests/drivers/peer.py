@@ -8,10 +8,12 @@ from typing import TypeVar, cast
 from gripperd.drivers.bus import Bus, ModbusBus, TcpAddress, open_bus
 from gripperd.protocol.modbus import Write
 
+from .steady import steady
+
 Q = TypeVar("Q")
 R = TypeVar("R")
 
-SOON = 10.0
+SOON = 60.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
 REQUEST = 12
 """Octets of every request that the tests send."""
@@ -118,6 +120,7 @@ async def connected(
     async with listening(behave) as peer:
         address = TcpAddress(host="127.0.0.1", port=peer.port, timeout=patience)
         async with open_bus(address) as bus:
+            steady(bus)
             await up(bus)
             yield bus, peer
 

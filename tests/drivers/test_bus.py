@@ -30,6 +30,7 @@ from .peer import (
     value_of,
     write,
 )
+from .steady import steady
 
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
 SHORT = 0.05
@@ -222,6 +223,7 @@ async def test_it_connects_when_the_peer_comes_and_again_when_it_comes_back(
         port = peer.port
     address = TcpAddress(host="127.0.0.1", port=port)
     async with open_bus(address) as bus:
+        steady(bus)
         for life in (1, 2):
             async with listening(echo, port) as peer:
                 await up(bus)

@@ -11,6 +11,7 @@ from gripperd.protocol import itv
 from gripperd.protocol.dcon import Ask
 
 from .peer import up
+from .steady import steady
 
 PATIENCE = 0.3
 """Time-out of the line, and so the silence before it is first used. [s]"""
@@ -55,6 +56,7 @@ async def dcon_line(device: TextDevice) -> AsyncIterator[Bus[Ask, str]]:
     device.start()
     try:
         async with open_bus(DconAddress(port=device.port, timeout=PATIENCE)) as bus:
+            steady(bus)
             await up(bus)
             yield bus
     finally:
@@ -67,6 +69,7 @@ async def itv_line(device: TextDevice) -> AsyncIterator[Bus[itv.Request, int]]:
     device.start()
     try:
         async with open_bus(ItvAddress(port=device.port, timeout=PATIENCE)) as bus:
+            steady(bus)
             await up(bus)
             yield bus
     finally:

@@ -19,7 +19,7 @@ from gripperd.control.task import Adjust, Adopt, Move, SelfTest, Tare, Vent
 from gripperd.model import Chain
 from tests.control.monitors.watched import SPANS, holding, stage
 from tests.control.stage import PERIOD, Stage, ordered, real
-from tests.daemon import running_daemon, until
+from tests.daemon import PATIENCE, running_daemon, until
 from tests.faults.held import COMMANDS
 from tests.faults.row import Row, counted
 
@@ -115,7 +115,7 @@ def daemon() -> Iterator[httpx.Client]:
     with (
         tempfile.TemporaryDirectory() as name,
         running_daemon(Path(name)) as running,
-        httpx.Client(base_url=f"{running.url}/v1", timeout=60.0) as http,
+        httpx.Client(base_url=f"{running.url}/v1", timeout=PATIENCE) as http,
     ):
         yield http
 
@@ -124,7 +124,7 @@ def _together(http: httpx.Client, asks: list[dict[str, str]]) -> list[httpx.Resp
     """Ask for a grasp from many clients at once, each with its headers."""
 
     def ask(headers: dict[str, str]) -> httpx.Response:
-        with httpx.Client(base_url=http.base_url, timeout=60.0) as client:
+        with httpx.Client(base_url=http.base_url, timeout=PATIENCE) as client:
             return client.post(COMMANDS, json=EGG, headers=headers)
 
     with ThreadPoolExecutor(len(asks)) as pool:
@@ -158,7 +158,7 @@ def _begun(http: httpx.Client) -> int:
 
 def _opened(http: httpx.Client) -> None:
     """Put an egg between open jaws."""
-    released = http.post(f"{COMMANDS}?wait_s=30", json=RELEASE)
+    released = http.post(f"{COMMANDS}?wait_s=60", json=RELEASE)
     assert released.json()["status"] == "succeeded", released.text
     http.delete("/bench/object").raise_for_status()
     http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()

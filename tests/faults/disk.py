@@ -91,8 +91,12 @@ def read_only(held: Held) -> Iterator[None]:
         return subprocess.run(again, capture_output=True, check=False).returncode == 0
 
     # Nothing may be open for writing then: the service finds it so at its start.
-    os.kill(held.process("service"), signal.SIGKILL)
-    until(lambda: mounted("ro"))
+    def found_so() -> bool:
+        if service := held.process("service"):
+            os.kill(service, signal.SIGKILL)
+        return mounted("ro")
+
+    until(found_so)
     until(held.ready)
     try:
         yield

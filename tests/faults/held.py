@@ -16,7 +16,7 @@ PATIENCE = 60.0
 """Longest wait for anything. [s]"""
 SETTLED = 0.02
 """Share by which the force may differ. [-]"""
-MOVING = {"executing", "stopping"}
+UNSETTLED = {"executing", "stopping", "offline", "attaching"}
 COMMANDS = "/grippers/g0/commands"
 
 
@@ -54,7 +54,7 @@ class Held:
 
     def wrong(self) -> set[str]:
         """What is not as it was when the egg had been grasped, once nothing moves."""
-        until(lambda: self.answer("/grippers/g0").get("machine") not in MOVING)
+        until(lambda: self.answer("/grippers/g0").get("machine") not in UNSETTLED)
         state, truth = self.http.get("/grippers/g0").json(), self.http.get("/bench")
         force = truth.json()["force_N"]
         found = set[str]()
@@ -68,7 +68,7 @@ class Held:
 
     def give(self, key: str | None = None, **command: object) -> httpx.Response:
         """Give a command and wait for its end."""
-        headers = {"Prefer": "wait=30"} | ({"Idempotency-Key": key} if key else {})
+        headers = {"Prefer": "wait=60"} | ({"Idempotency-Key": key} if key else {})
         return self.http.post(COMMANDS, json=command, headers=headers)
 
     def over(self, given: httpx.Response) -> dict[str, Any]:
@@ -103,6 +103,19 @@ def grasped(daemon: Daemon, http: httpx.Client, folder: Path) -> Held:
     http.put("/bench/object", json={"profile": "raw_egg"}).raise_for_status()
     done = Held(daemon, http, folder, 0.0).give(type="grasp", profile="raw_egg")
     assert done.json()["status"] == "succeeded", done.text
-    # The force is brought up to its target for a moment after the outcome is known.
-    time.sleep(1.0)
-    return Held(daemon, http, folder, http.get("/bench").json()["force_N"])
+    return Held(daemon, http, folder, settled_force(http))
+
+
+def settled_force(http: httpx.Client) -> float:
+    """Force of each jaw, once it is no more brought up to its target. [N]."""
+    force, before = 0.0, -1.0
+
+    def is_settled() -> bool:
+        nonlocal force, before
+        before = force
+        time.sleep(1.0)
+        force = float(http.get("/bench").json()["force_N"])
+        return abs(force - before) < SETTLED / 4 * force
+
+    until(is_settled)
+    return force

@@ -20,6 +20,7 @@ from gripperd.link.client import Client
 from gripperd.link.control import Overview, ReadOverview
 from gripperd.service.guard import LONGEST_BODY
 from gripperd.service.server import LONGEST_STUCK
+from tests.daemon import PATIENCE
 from tests.faults.held import Held, held_egg
 from tests.faults.row import Row
 
@@ -93,7 +94,7 @@ def flooded(held: Held, seconds: float = FLOODED) -> list[Row]:
     over = threading.Event()
 
     def ask() -> None:
-        with httpx.Client(base_url=held.http.base_url, timeout=60.0) as client:
+        with httpx.Client(base_url=held.http.base_url, timeout=PATIENCE) as client:
             while not over.is_set():
                 try:
                     found = client.get("/grippers/g0")
@@ -202,7 +203,7 @@ def _stop(held: Held) -> float:
     """Time for a stop on a connection of its own. [s]."""
     start = time.monotonic()
     url = f"{held.daemon.url}/v1/grippers/g0/stop"
-    httpx.post(url, timeout=60.0).raise_for_status()
+    httpx.post(url, timeout=PATIENCE).raise_for_status()
     return time.monotonic() - start
 
 

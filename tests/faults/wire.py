@@ -26,7 +26,7 @@ from tests.interop.programs import free_port
 TRIES = 5
 OFFLINE_WITHIN, BACK_WITHIN = 0.3, 2.0
 """[s]"""
-PATIENCE = 20.0
+PATIENCE = 60.0
 UNIT, FUNCTION = 6, 7
 """Places in a Modbus TCP frame."""
 

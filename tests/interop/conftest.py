@@ -91,7 +91,7 @@ def foreign(
     def over_rtu() -> Iterator[Device]:
         with cable(tmp_path_factory.mktemp("cable")) as (near, far):
             # The time-out is also how long a port is listened to before it is used.
-            address = RtuAddress(port=str(near), baud=BAUD, timeout=1.0)
+            address = RtuAddress(port=str(near), baud=BAUD, timeout=3.0)
             yield address, lambda: running(*command, "rtu", str(far), str(BAUD))
 
     if line == "tcp":

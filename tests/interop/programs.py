@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 HEADERS = Path("/usr/include/modbus")
-PATIENCE = 20.0
+PATIENCE = 60.0
 """Longest wait for a program to start; none takes this long. [s]"""
 
 

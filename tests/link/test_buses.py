@@ -14,7 +14,7 @@ from gripperd.link.server import serve
 from gripperd.protocol.modbus import Read, Table
 from tests.drivers.device import Device, holding, on_the_wire
 
-SOON = 20.0
+SOON = 60.0
 READ = Read(1, Table.HOLDING, 0)
 
 

@@ -11,7 +11,7 @@ from gripperd.link.frames import decode
 from gripperd.link.server import serve
 
 Eventually = Callable[[Callable[[], bool]], Awaitable[None]]
-SOON = 10.0
+SOON = 60.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
 
 

@@ -43,7 +43,7 @@ from gripperd.model import Chain
 APPLE = BenchObject(
     diameter=0.065, stiffness=40e3, mass=0.180, friction=0.5, damage_force=90.0
 )
-SOON = 20.0
+SOON = 60.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
 
 

@@ -13,7 +13,7 @@ from gripperd.link.client import Client
 from gripperd.link.frames import Ask, decode, encode, frame
 from gripperd.link.server import serve
 
-SOON = 10.0
+SOON = 60.0
 """Longest wait for something that must happen; no test takes this long. [s]"""
 
 

@@ -41,7 +41,9 @@ from gripperd.link.server import serve as serve_link
 from gripperd.protocol.live_zero import LoopScale
 from gripperd.service.app import create_app, living
 from gripperd.service.server import serve as serve_http
+from tests.daemon import PATIENCE
 from tests.demonstration import SEED, STEP
+from tests.drivers.steady import steady
 
 STARTED_AT = 1_700_000_000.0
 Report = Callable[[str], None]
@@ -141,6 +143,7 @@ async def _control(
 ) -> Loop:
     gripper: GripperSettings = settings.grippers["g0"]
     bus = await stack.enter_async_context(open_bus(address))
+    steady(bus)
     loop = Loop(
         Gripper(
             "g0",
@@ -186,7 +189,7 @@ class Daemon:
 def whole_daemon(settings: Settings) -> Iterator[Daemon]:
     with (
         running(lambda report: whole(settings, report)) as url,
-        httpx.Client(base_url=url, timeout=30) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         yield Daemon(url, http)
 
@@ -211,7 +214,7 @@ def made_ready(whole_daemon: Daemon) -> Daemon:
         http.post(f"{ready}/enable")
     whole_daemon.until(ready, lambda state: state["machine"] == "ready")
     if http.get(ready).json()["grip"] != "released":
-        released = http.post(f"{ready}/commands?wait_s=20", json={"type": "release"})
+        released = http.post(f"{ready}/commands?wait_s=60", json={"type": "release"})
         assert released.json()["status"] == "succeeded"
     http.delete("/v1/bench/object")
     return whole_daemon
@@ -263,7 +266,7 @@ def drawn_settings(
 def drawn_daemon(drawn_settings: Settings) -> Iterator[Daemon]:
     with (
         running(lambda report: whole(drawn_settings, report)) as url,
-        httpx.Client(base_url=url, timeout=30) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         yield Daemon(url, http)
 
@@ -282,6 +285,6 @@ def lonely(
     apart = replace(settings, runtime_dir=tmp_path_factory.mktemp("alone"))
     with (
         running(lambda report: service(apart, report, bench=False)) as url,
-        httpx.Client(base_url=url, timeout=30) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         yield http

@@ -9,7 +9,7 @@ from .conftest import Daemon
 from .test_bad_input import COMMANDS, JSON, is_problem
 
 EGG = {"type": "grasp", "profile": "raw_egg"}
-LONG = {"prefer": "wait=30"}
+LONG = {"prefer": "wait=60"}
 
 
 def test_an_egg_is_held_as_its_profile_says(daemon: Daemon) -> None:
@@ -17,7 +17,7 @@ def test_an_egg_is_held_as_its_profile_says(daemon: Daemon) -> None:
     answer = daemon.http.post(COMMANDS, json=EGG, headers=LONG)
     command = answer.json()
     assert answer.status_code == 201
-    assert answer.headers["preference-applied"] == "wait=30"
+    assert answer.headers["preference-applied"] == "wait=60"
     assert daemon.http.get(answer.headers["location"]).json() == command
     assert command["status"] == "succeeded"
     assert command["params"]["mode"] == "force"
@@ -145,7 +145,7 @@ def test_a_wait_is_capped_and_says_so(daemon: Daemon) -> None:
 
 def test_the_list_has_the_newest_first(daemon: Daemon) -> None:
     ids = [
-        daemon.http.post(f"{COMMANDS}?wait_s=20", json={"type": "release"}).json()["id"]
+        daemon.http.post(f"{COMMANDS}?wait_s=60", json={"type": "release"}).json()["id"]
         for _ in range(3)
     ]
     listed = daemon.http.get(f"{COMMANDS}?limit=2").json()["commands"]
@@ -154,11 +154,10 @@ def test_the_list_has_the_newest_first(daemon: Daemon) -> None:
 
 def test_more_commands_than_can_wait_are_refused(daemon: Daemon) -> None:
     daemon.http.post(COMMANDS, json=EGG)
-    answers = [daemon.http.post(COMMANDS, json=EGG) for _ in range(10)]
-    refused = [answer for answer in answers if answer.status_code != 201]
-    assert refused
-    is_problem(refused[-1], 429, "queue-full")
-    assert refused[-1].headers["retry-after"] == "1"
+    while (answer := daemon.http.post(COMMANDS, json=EGG)).status_code == 201:
+        pass
+    is_problem(answer, 429, "queue-full")
+    assert answer.headers["retry-after"] == "1"
 
 
 def test_a_disabled_gripper_takes_no_commands(daemon: Daemon) -> None:

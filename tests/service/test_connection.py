@@ -15,7 +15,7 @@ from gripperd.service.server import Limits, serve
 from .conftest import Report, running
 
 APP = PlainTextResponse("here")
-PATIENCE = 20.0
+PATIENCE = 60.0
 """Longest wait of a test, far above what is waited for. [s]"""
 
 
@@ -62,7 +62,7 @@ def test_who_asks_a_letter_at_a_time_is_hung_up_on() -> None:
 
 
 def test_the_wait_for_the_next_request_begins_with_the_last_answer() -> None:
-    with serving(wait=0.3) as url, connected(url) as client:
+    with serving(wait=2.0) as url, connected(url) as client:
         assert open_still(client)
         assert hung_up(client)
 

@@ -182,7 +182,7 @@ def back(drawn: Daemon) -> Iterator[None]:
     """Go by the configured model again afterwards."""
     yield
     release = {"type": "release"}
-    drawn.http.post("/v1/grippers/g0/commands?wait_s=20", json=release)
+    drawn.http.post("/v1/grippers/g0/commands?wait_s=60", json=release)
     assert drawn.http.post("/v1/models/0/activate").status_code == 200
 
 
@@ -207,7 +207,7 @@ def test_a_version_is_kept_but_not_gone_by_while_an_object_is_held(
 ) -> None:
     drawn.http.put("/v1/bench/object", json={"profile": "apple"})
     order = {"type": "grasp", "profile": "apple"}
-    held = drawn.http.post("/v1/grippers/g0/commands?wait_s=20", json=order).json()
+    held = drawn.http.post("/v1/grippers/g0/commands?wait_s=60", json=order).json()
     assert held["status"] == "succeeded"
     answer = drawn.http.post(f"{named}/accept", json={"activate": True})
     status, code, detail = problem(answer)

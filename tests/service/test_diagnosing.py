@@ -9,6 +9,7 @@ import pytest
 
 from gripperd.config import Settings
 from gripperd.store.diagnoses import RESULT, Diagnoses, Status
+from tests.daemon import PATIENCE
 
 from .asking import asked, problem, sent, stored
 from .conftest import Daemon, running, service
@@ -80,7 +81,7 @@ def test_a_new_life_finds_what_is_over_and_calls_the_rest_failed(
     apart = replace(drawn_settings, state_dir=tmp_path, runtime_dir=tmp_path)
     with (
         running(lambda report: service(apart, report, bench=False)) as url,
-        httpx.Client(base_url=url) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         found = http.get(f"/v1/diagnoses/{done.id}").json()
         assert (found["status"], found["result"]) == ("succeeded", {"verdict": "none"})
@@ -94,7 +95,7 @@ def test_a_service_that_ends_leaves_no_worker_and_its_next_life_says_so(
     apart = replace(drawn_settings, state_dir=tmp_path, runtime_dir=tmp_path)
     with (
         running(lambda report: service(apart, report, bench=False)) as url,
-        httpx.Client(base_url=url, timeout=30) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         daemon = Daemon(url, http)
         whole = sent(daemon, (rig_folder / "rig.csv").read_bytes())
@@ -103,7 +104,7 @@ def test_a_service_that_ends_leaves_no_worker_and_its_next_life_says_so(
     assert workers() == []
     with (
         running(lambda report: service(apart, report, bench=False)) as url,
-        httpx.Client(base_url=url) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         found = http.get(place).json()
         assert (found["status"], found["error"]["code"]) == ("failed", "interrupted")

@@ -10,6 +10,7 @@ from gripperd.errors import GripperdError
 from gripperd.link.frames import failed, raised
 from gripperd.service.failures import answer_failures
 from gripperd.service.server import serve
+from tests.daemon import PATIENCE
 
 from .conftest import Report, running
 from .test_bad_input import is_problem
@@ -29,7 +30,7 @@ async def _beyond(report: Report) -> None:
 
 def test_a_defect_of_another_process_is_no_lost_link() -> None:
     with running(_beyond) as url:
-        answer = httpx.get(url)
+        answer = httpx.get(url, timeout=PATIENCE)
     found = is_problem(answer, 500, "internal")
     assert found["retryable"] is False
     assert "secret" not in answer.text
@@ -49,7 +50,7 @@ async def _defective(report: Report) -> None:
 
 def test_a_defect_is_logged_and_not_told(caplog: pytest.LogCaptureFixture) -> None:
     with running(_defective) as url, caplog.at_level(logging.ERROR):
-        answer = httpx.get(url)
+        answer = httpx.get(url, timeout=PATIENCE)
     found = is_problem(answer, 500, "internal")
     assert "secret" not in answer.text
     assert "ZeroDivision" not in answer.text

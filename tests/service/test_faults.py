@@ -13,7 +13,7 @@ FAULTS = f"{GRIPPER}/faults"
 def held(daemon: Daemon) -> None:
     daemon.http.put("/v1/bench/object", json={"profile": "apple"}).raise_for_status()
     grasp = {"type": "grasp", "profile": "apple"}
-    prefer = {"Prefer": "wait=20"}
+    prefer = {"Prefer": "wait=60"}
     done = daemon.http.post(COMMANDS, json=grasp, headers=prefer)
     assert done.json()["status"] == "succeeded"
 

@@ -9,6 +9,7 @@ from starlette.responses import PlainTextResponse
 
 from gripperd.service.guard import Guard
 from gripperd.service.server import serve
+from tests.daemon import PATIENCE
 
 from .conftest import Daemon, Report, running
 from .test_bad_input import COMMANDS, JSON, is_problem
@@ -174,7 +175,10 @@ def test_a_body_that_never_comes_is_given_up() -> None:
         b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
         b"Content-Length: 20\r\n\r\n{"
     )
-    with running(_impatient) as url, httpx.Client(base_url=url) as http:
+    with (
+        running(_impatient) as url,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
+    ):
         answer = raw(Daemon(url, http), head)
         assert answer.startswith(b"HTTP/1.1 408")
         assert b'"code": "body-too-slow"' in answer

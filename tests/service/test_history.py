@@ -8,6 +8,8 @@ from typing import Any
 import httpx
 import pytest
 
+from tests.daemon import PATIENCE
+
 from .conftest import Daemon
 from .test_bad_input import COMMANDS, is_problem
 
@@ -16,7 +18,7 @@ RELEASE = {"type": "release"}
 
 def released(daemon: Daemon) -> dict[str, Any]:
     """A command that is over, and in the history."""
-    answer = daemon.http.post(f"{COMMANDS}?wait_s=20", json=RELEASE)
+    answer = daemon.http.post(f"{COMMANDS}?wait_s=60", json=RELEASE)
     command: dict[str, Any] = answer.json()
     daemon.until(
         f"/v1/history?command={command['id']}", lambda page: len(page["events"]) == 3
@@ -43,7 +45,7 @@ def following(daemon: Daemon, **headers: str) -> Iterator[Iterator[dict[str, Any
     """Events as they happen."""
     accept = {"accept": "text/event-stream"}
     with (
-        httpx.Client(base_url=daemon.url, timeout=30) as http,
+        httpx.Client(base_url=daemon.url, timeout=PATIENCE) as http,
         http.stream("GET", "/v1/events", headers=accept | headers) as answer,
     ):
         assert answer.headers["content-type"].startswith("text/event-stream")

@@ -15,7 +15,7 @@ from .conftest import Daemon
 from .test_bad_input import COMMANDS
 
 GRIPPER = "/v1/grippers/g0"
-WAIT = {"Prefer": "wait=20"}
+WAIT = {"Prefer": "wait=60"}
 
 
 def grasped(daemon: Daemon) -> None:

@@ -22,7 +22,7 @@ def test_a_held_egg_has_its_figures(daemon: Daemon) -> None:
     before = figures(daemon.http).get(("gripperd_commands_total", "g0 succeeded grasp"))
     daemon.http.put("/v1/bench/object", json={"profile": "raw_egg"})
     order = {"type": "grasp", "profile": "raw_egg"}
-    daemon.http.post(f"{COMMANDS}?wait_s=20", json=order)
+    daemon.http.post(f"{COMMANDS}?wait_s=60", json=order)
     found = figures(daemon.http)
     assert found["gripperd_info", "1.2.3"] == 1
     assert found["gripperd_control_up", ""] == 1

@@ -55,7 +55,7 @@ def stiffer(versions: Versions) -> Version:
 def http(drawn: Daemon) -> Iterator[httpx.Client]:
     """A client of a daemon that goes by the configured model, before and after."""
     yield drawn.http
-    drawn.http.post(f"{COMMANDS}?wait_s=20", json={"type": "release"})
+    drawn.http.post(f"{COMMANDS}?wait_s=60", json={"type": "release"})
     assert drawn.http.post("/v1/models/0/activate").status_code == 200
 
 
@@ -129,12 +129,12 @@ def test_the_result_of_a_grasp_names_the_version_it_went_by(
         assert http.post(f"/v1/models/{version}/activate").status_code == 200
         http.put("/v1/bench/object", json={"profile": "apple"})
         order = {"type": "grasp", "profile": "apple", "current_mA": 10.7}
-        held = http.post(f"{COMMANDS}?wait_s=20", json=order).json()
+        held = http.post(f"{COMMANDS}?wait_s=60", json=order).json()
         assert held["status"] == "succeeded", held
         predictions.append(held["result"]["predicted_force_N"])
         names = {held["params"]["model"], held["result"]["model"]}
         assert names == {http.get("/v1/models/active").json()["name"]}
-        http.post(f"{COMMANDS}?wait_s=20", json={"type": "release"})
+        http.post(f"{COMMANDS}?wait_s=60", json={"type": "release"})
     assert predictions[0] - predictions[1] == pytest.approx(5.0, abs=0.3)
 
 

@@ -12,6 +12,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gripperd.errors import Refused
 from gripperd.service.server import serve
+from tests.daemon import PATIENCE
 
 from .conftest import Report, running
 
@@ -51,7 +52,7 @@ def test_at_its_end_it_hangs_up_on_who_is_still_being_answered(
 
 def test_it_says_where_it_really_listens() -> None:
     with running(_on_a_free_port) as url:
-        assert httpx.get(url).text == "here"
+        assert httpx.get(url, timeout=PATIENCE).text == "here"
         assert not url.endswith(":0")
 
 
@@ -59,7 +60,7 @@ def test_nobody_listens_once_it_ended() -> None:
     with running(_on_a_free_port) as url:
         pass
     with pytest.raises(httpx.ConnectError):
-        httpx.get(url)
+        httpx.get(url, timeout=PATIENCE)
 
 
 @pytest.mark.anyio

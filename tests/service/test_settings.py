@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from gripperd.config import load_settings, shipped
-from tests.daemon import settings_file
+from tests.daemon import PATIENCE, settings_file
 
 from .conftest import running, service
 from .test_bad_input import is_problem
@@ -38,7 +38,7 @@ def here(tmp_path: Path) -> Iterator[Here]:
     settings = load_settings(settings_file(tmp_path), {})
     with (
         running(lambda report: service(settings, report, bench=False)) as url,
-        httpx.Client(base_url=url, timeout=30) as http,
+        httpx.Client(base_url=url, timeout=PATIENCE) as http,
     ):
         yield Here(tmp_path, http)
 

@@ -7,7 +7,7 @@ import pytest
 from .conftest import Daemon
 from .test_bad_input import COMMANDS, is_problem
 
-LONG = {"prefer": "wait=30"}
+LONG = {"prefer": "wait=60"}
 
 
 def done(daemon: Daemon, **body: object) -> dict[str, Any]:
