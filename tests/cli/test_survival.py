@@ -140,17 +140,17 @@ def test_an_adoption_after_a_restart_is_in_the_history(
     http.put("/v1/bench/object", json={"profile": "raw_egg"})
     held = http.post(f"{COMMANDS}?wait_s=60", json=EGG).json()
     assert held["status"] == "succeeded"
-    current = held["result"]["current_mA"]
     dead = children(daemon.process)["control"]
     kill(daemon, "control")
     revived(daemon, http, "control", dead)
+    state = http.get("/v1/grippers/g0").json()
+    found = f"adopted {state['current_mA']:.2f} mA as found"
 
     def told() -> bool:
         page = answer(http, "/v1/history?kind=adoption&limit=1") or {"events": []}
-        return any(f"{current:.2f} mA as found" in e["text"] for e in page["events"])
+        return any(each["text"] == found for each in page["events"])
 
     until(told)
-    state = http.get("/v1/grippers/g0").json()
     assert (state["grip"], state["adopted"]) == ("holding", True)
 
 
