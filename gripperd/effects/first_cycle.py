@@ -18,12 +18,16 @@ from gripperd.model.kinds import InMuscle
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
+REFERENCE = 100e3
+"""Fall of pressure that the softening refers to. [Pa]"""
+
 
 @dataclass(frozen=True, slots=True)
 class FirstCycle(InMuscle):
     r"""The pull of a first inflation differs by a share and by a force.
 
-    .. math:: F = F_0 + w \left(1 - \frac{p_m - p}{d}\right)^+ (a F_0 + b)
+    .. math:: F = F_0 + w \left(1 - s \frac{p_m - p}{100\,\mathrm{kPa}}\right)^+
+              (a F_0 + b)
 
     with the highest pressure so far, p_m: rubber that has been there is soft already.
     What is first depends on what undoes the softening: with ``after = 0`` it never
@@ -48,9 +52,9 @@ class FirstCycle(InMuscle):
     """Force that the first has on top, b. [N]"""
     after: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Whether the rest before a row of repeats makes its first sweep a first. [-]"""
-    fall: float = shape(unit="kPa", starts=(10e6, 50e3), low=5e3, high=10e6)
-    """Fall of pressure at which the first inflation is over, d; far above any pressure
-    its deflation counts as well. [Pa]"""
+    softened: float = shape(unit=None, starts=(0.0, 2.0), low=0.0, high=20.0)
+    """Share of it that a fall by 100 kPa ends, s; with none its deflation counts as
+    well. [-]"""
 
     def rest(self) -> Array:
         """Never inflated."""
@@ -60,7 +64,8 @@ class FirstCycle(InMuscle):
         """Pull with what the first inflation has on top. [N]."""
         reached = np.fmax.accumulate(np.fmax(track.pressure, memory))
         memory[:] = reached[-1:]
-        left = np.maximum(1 - (reached - track.pressure) / self.fall, 0.0)
+        fallen = (reached - track.pressure) / REFERENCE
+        left = np.maximum(1 - self.softened * fallen, 0.0)
         ever = np.where(track.cycle < 1, 1 - self.after, 0.0)
         row = np.where(track.repeat == 0, self.after, 0.0)
         return value + (ever + row) * left * (self.gain * value + self.offset)

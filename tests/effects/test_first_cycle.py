@@ -37,7 +37,7 @@ def test_a_partial_recovery_stands_between_them(muscle: Muscle) -> None:
 def test_rubber_that_has_been_at_a_pressure_is_soft_there(muscle: Muscle) -> None:
     pressure = np.array([1e5, 3e5, 5e5, 4.75e5, 4e5, 3e5, 1e5])
     track = track_of(muscle, pressure=pressure, cycle=0.0)
-    effect = FirstCycle(0.15, 5.0, fall=50e3)
+    effect = FirstCycle(0.15, 5.0, softened=2.0)
     found = effect.along(np.full(7, 200.0), track, effect.rest())
     expected = [235.0, 235.0, 235.0, 217.5, 200.0, 200.0, 200.0]
     assert found == pytest.approx(expected)
