@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from gripperd.diagnose.constants import constants
-from gripperd.diagnose.course import Course, is_table
+from gripperd.diagnose.course import Course
 from gripperd.diagnose.cutting import courses
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.holdout import split
-from gripperd.diagnose.loudness import POINTS, noises_of
+from gripperd.diagnose.loudness import noises_of
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.plausible import check_plausible
 from gripperd.diagnose.point import Point
@@ -22,6 +22,8 @@ from gripperd.model.effect import Signal
 
 SLACK = 4.5
 """Standard deviations below which a force is not told from none."""
+MOST_SLACK = 0.125
+"""Share of the largest force from which a muscle is taut, whatever the noise. [-]"""
 
 
 def problem_of(
@@ -73,7 +75,7 @@ def _slack(sweeps: tuple[Course, ...], noises: Mapping[Signal, Noise]) -> float:
     if not force.size:
         return -np.inf
     top = float(np.max(force))
-    # Neighbours in a table differ by more than noise.
-    std = POINTS * top if is_table(sweeps) else noises[Signal.FORCE].std
+    # Neighbours in a coarse table differ by far more than noise.
+    std = min(noises[Signal.FORCE].std, MOST_SLACK / SLACK * top)
     pushes = np.mean(force < -max(SLACK * std, 0.03 * top)) > 0.004
     return -np.inf if pushes else max(SLACK * std, 0.015 * top)
