@@ -180,7 +180,7 @@ def test_low_supply_is_told_as_force_not_reached(http: httpx.Client) -> None:
     done = command(http, {"type": "grasp", "profile": "apple"})
     if done["result"] is None:
         # When the loop has stalled meanwhile, the monitors come first.
-        assert "140 kPa" in done["error"]["message"]
+        assert " kPa where " in done["error"]["message"]
     else:
         assert done["result"]["outcome"] == "force_not_reached"
 

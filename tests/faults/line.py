@@ -181,12 +181,14 @@ def _echoing(far: FarEnd, asked: Asked) -> None:
     honest(far, asked)
 
 
-async def gone(fault: Fault, tries: int = TRIES) -> tuple[Row, Row]:
+async def gone(
+    fault: Fault, tries: int = TRIES, patience: float = SERIAL
+) -> tuple[Row, Row]:
     """A serial line that goes away and comes back while an apple is held."""
     offline, back, wrong = [], [], set[str]()
     with tempfile.TemporaryDirectory() as folder:
         async with (
-            far_rig(fault, Path(folder), SERIAL) as (bus, far),
+            far_rig(fault, Path(folder), patience) as (bus, far),
             controlled(bus) as loop,
         ):
             await hold(loop, far)

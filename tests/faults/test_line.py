@@ -5,6 +5,9 @@ import pytest
 from tests.control.far_rig import Fault
 from tests.faults import line
 
+PATIENT = 10.0
+"""Time-out where a busy machine must not make a test fail. [s]"""
+
 
 @pytest.fixture
 def anyio_backend() -> object:
@@ -24,5 +27,5 @@ async def test_an_echo_that_the_settings_know_of_harms_nothing() -> None:
 
 @pytest.mark.anyio
 async def test_an_adapter_that_is_unplugged_is_adopted_before_it_is_written() -> None:
-    offline, back = await line.gone(Fault.RTU_UNPLUGGED, 1)
+    offline, back = await line.gone(Fault.RTU_UNPLUGGED, 1, PATIENT)
     assert (offline.wrong, back.wrong) == ((), ())
