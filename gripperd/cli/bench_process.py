@@ -15,6 +15,7 @@ from gripperd.bench.serial_server import serve_serial
 from gripperd.bench.server import BenchServer, serve_bench
 from gripperd.bench.wire_faults import WireFaults
 from gripperd.cli.bench_line import BenchLine, lying
+from gripperd.cli.garbage import spare_what_stays
 from gripperd.cli.notify import notify
 from gripperd.cli.processes import bench_socket, go_real_time, simulated
 from gripperd.config import GripperSettings, Settings
@@ -52,6 +53,7 @@ async def bench(settings: Settings, line: BenchLine) -> None:
             if not line.fitted:
                 raise
             log.warning("REST does not reach this bench", cause=str(error))
+        spare_what_stays()
         log.info("bench listens", **_said(server, line, fitted))
         notify(READY=1, ADDRESS=server.address)
         await asyncio.Event().wait()

@@ -19,6 +19,7 @@ from typing import Any
 import structlog
 import uvloop
 
+from gripperd.cli.garbage import spare_what_stays
 from gripperd.cli.latches import adopt_faults, keep_latched
 from gripperd.cli.notify import notify
 from gripperd.cli.supervisor import SUPERVISED, stop_requested
@@ -154,6 +155,7 @@ async def control(
             serve(control_socket(settings), desk.respond)
         )
         _warn(settings)
+        spare_what_stays()
         async with asyncio.TaskGroup() as tasks:
             for name, loop in loops.items():
                 tasks.create_task(loop.run())

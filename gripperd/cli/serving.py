@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import structlog
 
 from gripperd import __version__
+from gripperd.cli.garbage import spare_what_stays
 from gripperd.cli.notify import notify
 from gripperd.cli.processes import bench_socket, control_socket, simulated
 from gripperd.cli.watchdog import Watchdog, longest_silence
@@ -58,6 +59,7 @@ async def service(settings: Settings, address: tuple[str, int] | None) -> None:
     looks: list[asyncio.Task[None]] = []
 
     def ready(url: str) -> None:
+        spare_what_stays()
         log.info("service listens", url=url)
         notify(READY=1, ADDRESS=url)
         looks.append(asyncio.create_task(_look_at_itself(url)))
