@@ -43,7 +43,8 @@ class PressureFollows:
         self._bias: float | None = None
         self._rest = Lasting()
         self._start = (0.0, 0.0)
-        """Pressure asked for and pressure found when it was last at rest. [Pa]"""
+        """Pressure asked for and pressure found where it was last at rest, or has been
+        let down to since. [Pa]"""
         self._stood: float | None = None
         """Opening when a command began. [m]"""
         self._losses: deque[tuple[float, float]] = deque()
@@ -83,7 +84,11 @@ class PressureFollows:
             self._stood = sight.measured.opening.value
         if rest < 0 and self._named is None:
             self._bias = self._bias or 0.0
-        if rest < SETTLED or self._named is not None:
+        if self._named is not None:
+            return
+        if asked <= self._start[0]:
+            self._start = asked, found
+        if rest < SETTLED:
             return
         if rest - dt < SETTLED:
             error = found - asked

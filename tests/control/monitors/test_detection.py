@@ -168,6 +168,19 @@ def test_a_valve_that_ignores_a_grasp_is_noticed(
     assert made.failure(grasp).code == "valve_not_following"
 
 
+def test_a_supply_that_sags_between_two_grasps_is_not_taken_for_the_valve(
+    chain: Chain, profiles: Profiles
+) -> None:
+    made = holding(chain, profiles["apple"])
+    assert made.complete(None).status is Status.SUCCEEDED
+    made.rig.plant.faults = BenchFaults(supply_pressure=140e3)
+    made.rig.plant.place(real(profiles["apple"]))
+    made.complete(ordered(profiles["apple"], Mode.FORCE))
+    made.run(2.0)
+    assert Cause.SUPPLY_SAG in causes(made)
+    assert Cause.VALVE_NOT_FOLLOWING not in causes(made)
+
+
 @pytest.mark.parametrize("approach", [8e-3, 3e-3])
 def test_blocked_jaws_are_noticed_and_let_down(
     chain: Chain, profiles: Profiles, approach: float
