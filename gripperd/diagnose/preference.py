@@ -14,11 +14,11 @@ from gripperd.model.effect import Effect
 ALIKE = 1.25
 """Misfit over the least of any rival up to which, far above the noise, a difference
 says only that neither formula is that of nature. [-]"""
-BORE = WRONG + "muscle.diameter"
-"""The constant that is wrong first: nobody states the diameter of a braid."""
 AMPLE = 1.6
 """The same against a formula that leaves the bore at the edge of its tolerance: of
 several numbers, it bends to more than the bore does. [-]"""
+BORE = WRONG + "muscle.diameter"
+"""The constant that is wrong first: nobody states the diameter of a braid."""
 HELD = 0.999
 """Share of a limit from which a number is held back by it. [-]"""
 
