@@ -15,7 +15,7 @@ from gripperd.control.keeping import kept
 from gripperd.control.profile import Mode
 from gripperd.control.proof import DURATION, Proof
 from gripperd.control.regulation import Regulation
-from gripperd.control.setpoint import Ramp, reached
+from gripperd.control.setpoint import LONGEST_STEP, Ramp, reached
 from gripperd.control.trust import Level
 from gripperd.control.watch import LOST_SAMPLES
 from gripperd.model import Chain
@@ -61,6 +61,8 @@ class Adjustment:
         regulation = self._regulation or self._begin(measured)
         self.ramp.current = regulation.step(measured, dt)
         self.held = regulation.held
+        # A stall of the loop is no time in which anything could be corrected.
+        dt = min(dt, LONGEST_STEP)
         if self._over_limit(measured):
             self.ramp.current = regulation.reduce()
             self.held = regulation.held

@@ -3,7 +3,7 @@
 from gripperd.control.command import Failure
 from gripperd.control.ending import Ending
 from gripperd.control.force import ForceSense
-from gripperd.control.setpoint import Ramp, reached, within
+from gripperd.control.setpoint import LONGEST_STEP, Ramp, reached, within
 from gripperd.control.states import Grip
 from gripperd.control.task import Moved
 from gripperd.errors import DomainError, Refused
@@ -87,7 +87,7 @@ class Travel:
             return Ending(Grip.HOLDING, failure=failure, finding=self._found(measured))
         if not self.ramp.towards(self._goal, RATE, dt):
             return None
-        self._dwell += dt
+        self._dwell += min(dt, LONGEST_STEP)
         return self._ended(measured) if self._dwell > SETTLE else None
 
     def rest(self, measured: Measurement) -> None:

@@ -9,7 +9,7 @@ from gripperd.control.monitors.sight import Sight
 from gripperd.control.plan import Plan
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.release import Release
-from gripperd.control.setpoint import Ramp, within
+from gripperd.control.setpoint import LONGEST_STEP, Ramp, within
 from gripperd.errors import DomainError
 from gripperd.model import Chain
 from gripperd.signals import Measurement
@@ -47,7 +47,7 @@ class Ease:
         self.ramp.tick(dt)
         if not self.ramp.towards(self._goal, REDUCTION_RATE, dt):
             return None
-        self._dwell += dt
+        self._dwell += min(dt, LONGEST_STEP)
         return True if self._dwell > STOP_TIME else None
 
     def rest(self, measured: Measurement) -> None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from gripperd.control.force_loop import ForceLoop, lacking
 from gripperd.control.held import Held, behind_valve
 from gripperd.control.pressure_loop import PressureLoop
+from gripperd.control.setpoint import LONGEST_STEP
 from gripperd.control.trust import Level, Trust
 from gripperd.errors import DomainError
 from gripperd.model import Chain, Direction
@@ -23,8 +24,6 @@ SMOOTHING = 0.1
 """Time constant of the values that a change of level starts from. [s]"""
 SETTLE = 0.4
 """Time in which regulator and muscle follow the last step of the feed-forward. [s]"""
-LONGEST_STEP = 0.1
-"""A stall of the loop is not made up for in one step. [s]"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -190,8 +189,9 @@ class Regulation:
         self._level, self._gauged = level, gauged
 
     def _advance(self, dt: float) -> None:
+        dt = min(dt, LONGEST_STEP)
         gap = self._goal - self._feed
-        step = self.held.profile.ramp * self._line.gain * min(dt, LONGEST_STEP)
+        step = self.held.profile.ramp * self._line.gain * dt
         self._still = self._still + dt if gap == 0.0 else 0.0
         self._feed += min(max(gap, -step), step)
 

@@ -1,7 +1,7 @@
 """Opening the jaws: the current ramps down to the live zero and the jaws let go."""
 
 from gripperd.control.force import ForceSense
-from gripperd.control.setpoint import Ramp, reached
+from gripperd.control.setpoint import LONGEST_STEP, Ramp, reached
 from gripperd.model import Chain
 from gripperd.signals import Measurement
 
@@ -42,7 +42,7 @@ class Release:
         self.ramp.tick(dt)
         if not self.ramp.towards(self._chain.regulator.current_low, self._rate, dt):
             return None
-        self._dwell += dt
+        self._dwell += min(dt, LONGEST_STEP)
         pressure, force = measured.pressure.value, self._force.now.value
         if pressure is None and force is None:
             return True if self._dwell > SETTLE else None

@@ -10,7 +10,8 @@ LAG = 0.12
 """The pressure is behind the current by less: regulator and muscle take 60 to 110 ms to
 63 % of a step (measured on a 10 mm muscle). [s]"""
 LONGEST_STEP = 0.1
-"""A ramp does not make up for a stall of the loop in one step. [s]"""
+"""A ramp does not make up for a stall of the loop in one step, and a dwell does not
+count it: the current was written after it. [s]"""
 
 
 def within(regulator: Regulator, current: float) -> float:

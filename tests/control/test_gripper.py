@@ -10,6 +10,7 @@ from gripperd.control.command import GraspOrder, Outcome, Status
 from gripperd.control.gripper import Gripper
 from gripperd.control.profile import Mode, Profile
 from gripperd.control.states import Grip, Machine
+from gripperd.control.task import Adjust, Move
 from gripperd.errors import Refused
 from gripperd.model import Chain
 from gripperd.signals import Reading
@@ -350,5 +351,28 @@ def test_a_stall_of_the_loop_is_no_time_in_which_nothing_was_felt(
     for _ in range(after):
         ready.tick()
     ready.tick(0.5)
+    ready.until(lambda: ready.command(command).final)
+    assert ready.command(command).status is Status.SUCCEEDED
+
+
+@pytest.mark.parametrize("order", [None, Adjust(force=20.0)])
+@pytest.mark.parametrize("after", range(0, 60, 5))
+def test_a_stall_while_something_is_held_ends_nothing(
+    holding: Stage, order: Adjust | None, after: int
+) -> None:
+    command = holding.submit(order)
+    for _ in range(after):
+        holding.tick()
+    holding.tick(2.0)
+    holding.until(lambda: holding.command(command).final)
+    assert holding.command(command).status is Status.SUCCEEDED
+
+
+@pytest.mark.parametrize("after", range(0, 150, 10))
+def test_a_stall_on_the_way_ends_no_move(ready: Stage, after: int) -> None:
+    command = ready.submit(Move(opening=0.050))
+    for _ in range(after):
+        ready.tick()
+    ready.tick(2.0)
     ready.until(lambda: ready.command(command).final)
     assert ready.command(command).status is Status.SUCCEEDED
