@@ -22,6 +22,9 @@ CHALLENGERS = 4
 SURE = 2.0
 """A rival behind by less could be true: a true difference of so much has a standard
 error of root 2 of it, which is as much again. [nat]"""
+EVEN = 0.1
+"""A rival ahead by less has only been fitted a little further, and takes no place: two
+processors round differently. [nat]"""
 MISSHAPED = 0.06
 """Share of the first gap within which a difference of misfit says only that neither
 formula is that of nature. [-]"""
@@ -53,7 +56,7 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
     for _ in range(EXCHANGES):
         rivals = [rival for _, rivals in challenged for rival in rivals]
         champion = preferred(found.problem, rivals) if rivals else best
-        if champion.evidence <= best.evidence:
+        if champion.evidence <= best.evidence + EVEN:
             break
         if found.problem.is_hot and not _sounder(found.problem, best, champion):
             break

@@ -82,6 +82,13 @@ def test_twins_are_equivalent(problem: Problem) -> None:
     assert {own, *others} == {"coulomb_friction", "twin"}
 
 
+@pytest.mark.parametrize("own", [RUB, TWIN])
+def test_a_twin_takes_no_place(problem: Problem, own: Candidate) -> None:
+    # Which of them has been fitted a little further is up to the processor.
+    believed = _believing(_found(problem, RUB), own)
+    assert contest(believed, (RUB, TWIN)).best.names == (own.name,)
+
+
 def test_what_explains_less_is_no_equivalent(problem: Problem) -> None:
     listed = (RUB, BIAS)
     decided = contest(_found(problem, *listed), listed)
