@@ -1,7 +1,8 @@
-"""One signal in one sweep: the piece by which residuals are kept."""
+"""One signal in one sweep, by which residuals are kept, and sweeps of one kind."""
 
 from typing import NamedTuple
 
+from gripperd.diagnose.course import Course
 from gripperd.diagnose.fault import Mask
 from gripperd.model.effect import Signal
 
@@ -13,3 +14,12 @@ class Block(NamedTuple):
     signal: Signal
     good: Mask
     """Samples to explain, shape ``(n,)``."""
+
+
+class Group(NamedTuple):
+    """Sweeps that explain the same signals, end to end."""
+
+    places: tuple[int, ...]
+    """Of each sweep in the recording."""
+    signals: tuple[Signal, ...]
+    whole: Course

@@ -1,4 +1,4 @@
-"""The course of one run: what was measured, and the same without noise."""
+"""The course of a run: what was measured, and the same without noise."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.recording import Kind
 from gripperd.diagnose.smoothing import Smooth
 from gripperd.diagnose.travel import travel
@@ -21,7 +22,10 @@ at least. [-, Pa]"""
 
 @dataclass(frozen=True)
 class Course:
-    """One sweep without a pause; arrays of shape ``(n,)`` in SI, NaN not measured."""
+    """A sweep without a pause, or several end to end.
+
+    Arrays of shape ``(n,)`` in SI, NaN not measured.
+    """
 
     run: str
     kind: Kind | None
@@ -36,6 +40,8 @@ class Course:
     """Direction of travel, 0 before there was any. [-]"""
     still: Array
     """Time since the command last moved. [s]"""
+    slices: tuple[slice, ...] = (slice(None),)
+    """Samples of each sweep."""
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -51,13 +57,63 @@ class Course:
         """Column without its noise where that was taken off."""
         return self.smooth[name].value if name in self.smooth else self.column(name)
 
+    def rate(self, name: str) -> Array:
+        """Rate of a column, 0 where its noise was not taken off. [1/s]."""
+        return (
+            self.smooth[name].rate if name in self.smooth else np.zeros_like(self.time)
+        )
+
     @cached_property
     def inflating(self) -> Array:
         """Direction of the pressure, 0 before it moved and when not known. [-]."""
         pressure = self.level("pressure")
-        if not np.isfinite(pressure).all():
-            return np.zeros_like(pressure)
-        return travel(pressure, max(TURNED * float(np.ptp(pressure)), LEAST_TURNED))
+        return np.concatenate([_inflating(pressure[run]) for run in self.slices])
+
+    @cached_property
+    def resting(self) -> Mask:
+        """Samples of sweeps without travel."""
+        directions = [self.direction[run] for run in self.slices]
+        return np.concatenate([np.full(d.size, not d.any()) for d in directions])
+
+
+def _inflating(pressure: Array) -> Array:
+    if not np.isfinite(pressure).all():
+        return np.zeros_like(pressure)
+    return travel(pressure, max(TURNED * float(np.ptp(pressure)), LEAST_TURNED))
+
+
+def joined(courses: Sequence[Course]) -> Course:
+    """Lay sweeps end to end: many short arrays cost more than a long one."""
+    if len(courses) == 1:
+        return courses[0]
+    ends = np.cumsum([len(course) for course in courses]).tolist()
+    measured = dict.fromkeys(name for course in courses for name in course.measured)
+    smooth = dict.fromkeys(name for course in courses for name in course.smooth)
+    return Course(
+        run="",
+        kind=None,
+        time=np.concatenate([course.time for course in courses]),
+        step=np.concatenate([course.step for course in courses]),
+        measured={
+            name: np.concatenate([course.column(name) for course in courses])
+            for name in measured
+        },
+        smooth={
+            name: Smooth(
+                np.concatenate([course.level(name) for course in courses]),
+                np.concatenate([course.rate(name) for course in courses]),
+            )
+            for name in smooth
+        },
+        cycle=np.concatenate([course.cycle for course in courses]),
+        repeat=np.concatenate([course.repeat for course in courses]),
+        direction=np.concatenate([course.direction for course in courses]),
+        still=np.concatenate([course.still for course in courses]),
+        slices=tuple(
+            slice(end - len(course), end)
+            for course, end in zip(courses, ends, strict=True)
+        ),
+    )
 
 
 def is_table(sweeps: Sequence[Course]) -> bool:

@@ -6,19 +6,20 @@ from functools import cached_property
 
 import numpy as np
 
-from gripperd.diagnose.block import Block
+from gripperd.diagnose.block import Block, Group
 from gripperd.diagnose.constants import NUISANCE, Constant, moved
-from gripperd.diagnose.course import Course
+from gripperd.diagnose.course import Course, joined
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
+from gripperd.diagnose.runs import Runs
 from gripperd.diagnose.stages import passed_on, predictable, predicted
 from gripperd.diagnose.track import track_of
 from gripperd.diagnose.usable import usable
 from gripperd.diagnose.whitening import whitened
 from gripperd.model.effect import Signal
-from gripperd.model.track import Array, Track
+from gripperd.model.track import Array
 
 _NOTHING: Array = np.empty(0)
 
@@ -89,18 +90,17 @@ class Problem:
             model = model.with_effect(effect)
         return model
 
-    def tracks(self, explanation: Explanation) -> tuple[Track, ...]:
-        """What happened in each sweep, as the explanation has it."""
+    def tracks(self, explanation: Explanation) -> tuple[Runs, ...]:
+        """What happened, as the explanation has it, in the order of the groups."""
         return tuple(
-            track_of(explanation, course, index)
-            for index, course in enumerate(self.courses)
+            track_of(explanation, group.whole, *group.places) for group in self.groups
         )
 
     def expected(
         self,
         explanation: Explanation,
         signals: frozenset[Signal] | None = None,
-        tracks: Sequence[Track] | None = None,
+        tracks: Sequence[Runs] | None = None,
     ) -> list[Array]:
         """Predicted readings block by block; an empty array for what is not asked.
 
@@ -113,35 +113,43 @@ class Problem:
         tracks
             What happened, when at hand.
         """
-        out: list[Array] = []
-        for course, blocks in self._by_course:
-            wanted = [b.signal for b in blocks if not signals or b.signal in signals]
+        found: dict[tuple[int, Signal], Array] = {}
+        for number, (places, shown, whole) in enumerate(self.groups):
+            wanted = [one for one in shown if not signals or one in signals]
             if not wanted:
-                out += [_NOTHING] * len(blocks)
                 continue
-            sweep = self.courses[course]
-            track = tracks[course] if tracks else track_of(explanation, sweep, course)
-            found = predicted(explanation, sweep, wanted, track)
-            out += [
-                found[block.signal][block.good] if block.signal in found else _NOTHING
-                for block in blocks
-            ]
-        return out
+            track = tracks[number] if tracks else track_of(explanation, whole, *places)
+            for signal, value in predicted(explanation, whole, wanted, track).items():
+                for place, piece in zip(places, whole.slices, strict=True):
+                    found[place, signal] = value[piece]
+        return [
+            found[block.course, block.signal][block.good]
+            if (block.course, block.signal) in found
+            else _NOTHING
+            for block in self.blocks
+        ]
 
     @cached_property
-    def _by_course(self) -> list[tuple[int, list[Block]]]:
-        return [
-            (index, [block for block in self.blocks if block.course == index])
-            for index in dict.fromkeys(block.course for block in self.blocks)
-        ]
+    def groups(self) -> tuple[Group, ...]:
+        """Sweeps that explain the same signals, to be predicted at once."""
+        shown: dict[int, tuple[Signal, ...]] = {}
+        for block in self.blocks:
+            shown[block.course] = (*shown.get(block.course, ()), block.signal)
+        places: dict[tuple[Signal, ...], list[int]] = {}
+        for place, signals in shown.items():
+            places.setdefault(signals, []).append(place)
+        return tuple(
+            Group(tuple(own), signals, joined([self.courses[place] for place in own]))
+            for signals, own in places.items()
+        )
 
     @cached_property
     def measured(self) -> list[Array]:
         """Readings block by block, less what smooth inputs leave out. [SI]."""
-        tracks = self.tracks(self.model)
         found: list[Array] = []
         for block in self.blocks:
-            course, track = self.courses[block.course], tracks[block.course]
+            course = self.courses[block.course]
+            track = track_of(self.model, course, block.course)
             passed = passed_on(self.model, course, track, block.signal)
             found.append((course.column(block.signal.value) - passed)[block.good])
         return found

@@ -6,9 +6,10 @@ from dataclasses import replace
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.runs import Runs
 from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
 from gripperd.model.parameter import parameters
-from gripperd.model.track import Array, Track
+from gripperd.model.track import Array
 
 STEP = 0.25
 """Step of a difference quotient, in sigma of a constant or scales of an amplitude."""
@@ -70,7 +71,7 @@ def change(
     there: Explanation,
     here: list[Array],
     effect: Effect,
-    tracks: Sequence[Track],
+    tracks: Sequence[Runs],
     step: float,
 ) -> list[Array]:
     """Difference quotient of every block when one effect changes.

@@ -12,8 +12,9 @@ import numpy as np
 
 from gripperd.diagnose.course import Course
 from gripperd.diagnose.explanation import Explanation
+from gripperd.diagnose.runs import Runs
 from gripperd.diagnose.travel import leaning, travel
-from gripperd.model.effect import Signal, Stage, acts_in_gripper
+from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
 from gripperd.model.memory import begin, lag
 from gripperd.model.track import Array, Track
 
@@ -41,7 +42,7 @@ def predicted(
     explanation: Explanation,
     course: Course,
     signals: Collection[Signal],
-    track: Track,
+    track: Runs,
 ) -> dict[Signal, Array]:
     """Readings the explanation expects. [SI].
 
@@ -62,25 +63,28 @@ def predicted(
     }
 
 
-def _happened(explanation: Explanation, signal: Signal, track: Track) -> Array:
+def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
     """What the chain does. [SI]."""
     if signal is Signal.FORCE:
         track = _strained(explanation, track)
     if signal is Signal.GRIP:
-        track = replace(track, direction=leaning(track.force))
+        direction = track.each(lambda load, _: leaning(load), track.force)
+        track = replace(track, direction=direction)
     value = _START[signal](explanation, track)
     for effect in explanation.effects:
         if effect.signal is signal and effect.stage is not Stage.SENSOR:
-            value = effect.along(value, track, effect.rest())
+            value = _along(effect, value, track)
     if signal is Signal.PRESSURE and explanation.response > 0:
         quick = explanation.response
-        value = lag(value, track.step, quick, quick, begin())
+        value = track.each(
+            lambda one, run: lag(one, run.step, quick, quick, begin()), value
+        )
     # Neither does a regulator suck, nor do jaws pull at what they hold.
     bounded = signal in (Signal.PRESSURE, Signal.GRIP)
     return np.maximum(value, 0.0) if bounded else value
 
 
-def _strained(explanation: Explanation, track: Track) -> Track:
+def _strained(explanation: Explanation, track: Runs) -> Runs:
     """The muscle inside a mount that stretches is shorter than measured."""
     pull = np.fmax(track.force, 0.0)
     hidden = [
@@ -91,21 +95,35 @@ def _strained(explanation: Explanation, track: Track) -> Track:
     if not any(np.any(one) for one in hidden):
         return track
     contraction = np.asarray(track.contraction + sum(hidden))
-    turning = travel(contraction, STRETCHED)
+    turning = track.each(_turning, contraction)
     direction = np.where(turning == 0, track.direction, turning)
     return replace(track, contraction=contraction, direction=direction)
 
 
-def _read(
-    explanation: Explanation, signal: Signal, value: Array, track: Track
-) -> Array:
+def _turning(contraction: Array, run: Track) -> Array:
+    """Travel of a muscle that is shorter than measured; 0 where it is not."""
+    if np.array_equal(contraction, run.contraction, equal_nan=True):
+        return np.zeros_like(contraction)
+    return travel(contraction, STRETCHED)
+
+
+def _along(effect: Effect, value: Array, track: Runs) -> Array:
+    """Signal with an effect; one that remembers begins anew in each run."""
+    if not effect.rest().size:
+        return effect.along(value, track, effect.rest())
+    return track.each(lambda one, run: effect.along(one, run, effect.rest()), value)
+
+
+def _read(explanation: Explanation, signal: Signal, value: Array, track: Runs) -> Array:
     """What the sensors say of it. [SI]."""
     for sensor in explanation.sensors():
         if sensor.signal is signal:
-            value = sensor.along(value, track, sensor.rest())
+            value = _along(sensor, value, track)
     skew = explanation.skews.get(signal, 0.0)
     if skew and signal in (Signal.OPENING, Signal.GRIP):
-        value = value - skew * np.gradient(value, track.time)
+        value = value - skew * track.each(
+            lambda one, run: np.gradient(one, run.time), value
+        )
     return value + explanation.zeros.get(signal, 0.0)
 
 

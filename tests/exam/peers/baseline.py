@@ -16,9 +16,10 @@ from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.response import change, sensitivities
+from gripperd.diagnose.runs import Runs
 from gripperd.model.effect import Effect
 from gripperd.model.parameter import parameters
-from gripperd.model.track import Array, Track
+from gripperd.model.track import Array
 from tests.exam.peers.classes import families
 from tests.exam.peers.exhibit import Exhibit, Guess
 
@@ -47,7 +48,7 @@ class Start:
 
     problem: Problem
     base: Explanation
-    tracks: tuple[Track, ...]
+    tracks: tuple[Runs, ...]
     here: list[Array]
 
     @classmethod
