@@ -66,7 +66,7 @@ def foretold(problem: Problem, fit: Polished) -> Array:
         known = np.diag(told) >= TOLD * whole
         reach = np.where(known, low, here), np.where(known, high, here)
         matrix = told + np.eye(here.size)
-        aim = bounded(matrix, moments[others].sum(0), *reach)
+        aim = bounded(matrix, moments[others].sum(0), *reach, here)
         for i in own:
             z, y = parts[i]
             left = y - z @ aim

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +67,15 @@ class Design:
 
     def fit(self, *chosen: Member) -> Fit:
         """Fit the constants, what acts, and some candidates."""
-        return self.gram.fit(self.columns(*chosen))
+        columns = self.columns(*chosen)
+        start = np.zeros(columns.size)
+        start[: self._alone.coefficients.size] = self._alone.coefficients
+        return self.gram.fit(columns, start)
+
+    @cached_property
+    def _alone(self) -> Fit:
+        """The constants and what acts, without any candidate."""
+        return self.gram.fit(self.columns())
 
 
 def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Design:

@@ -52,21 +52,28 @@ class Gram:
     def _total(self) -> tuple[Array, Array, float]:
         return self.products.sum(0), self.moments.sum(0), float(self.squares.sum())
 
-    def fit(self, columns: Sequence[int] | Indices) -> Fit:
+    def fit(self, columns: Sequence[int] | Indices, start: Array | None = None) -> Fit:
         """Fit some columns.
 
-        A coefficient that would leave its bounds stays on them.
+        A coefficient that would leave its bounds stays on them. Coefficients nearby
+        are where to start; none for anywhere.
         """
         products, moments, square = self._total
         kept = np.asarray(columns, dtype=np.intp)
         matrix = products[np.ix_(kept, kept)] + np.eye(kept.size)
-        best = bounded(matrix, moments[kept], self.low[kept], self.high[kept])
+        best = bounded(matrix, moments[kept], self.low[kept], self.high[kept], start)
         cost = square - float((2 * moments[kept] - matrix @ best) @ best)
         volume = float(np.linalg.slogdet(matrix)[1])
         return Fit(kept, best, cost, -0.5 * (cost + volume))
 
 
-def bounded(matrix: Array, moments: Array, low: Array, high: Array) -> Array:
+def bounded(
+    matrix: Array,
+    moments: Array,
+    low: Array,
+    high: Array,
+    start: Array | None = None,
+) -> Array:
     """Solve normal equations within bounds: what leaves them most is put on them.
 
     Parameters
@@ -75,9 +82,12 @@ def bounded(matrix: Array, moments: Array, low: Array, high: Array) -> Array:
         Of the normal equations, shapes ``(k, k)`` and ``(k,)``.
     low, high
         Bounds of the solution, shape ``(k,)``.
+    start
+        A solution nearby: what it has on its bounds is held there at first.
     """
-    free = np.ones(moments.size, dtype=bool)
-    best = np.zeros_like(moments)
+    fixed = low >= high
+    best = np.clip(np.zeros_like(moments) if start is None else start, low, high)
+    free = ~fixed if start is None else (best > low) & (best < high)
     for _ in range(4 * moments.size):
         rest = moments[free] - matrix[np.ix_(free, ~free)] @ best[~free]
         best[free] = np.linalg.solve(matrix[np.ix_(free, free)], rest)
@@ -89,7 +99,7 @@ def bounded(matrix: Array, moments: Array, low: Array, high: Array) -> Array:
             continue
         # What the bound no longer holds is let go (Karush-Kuhn-Tucker).
         inward = (moments - matrix @ best) * np.where(best <= low, 1.0, -1.0)
-        inward[free] = 0.0
+        inward[free | fixed] = 0.0
         worst = int(np.argmax(inward))
         if inward[worst] <= 1e-9:
             break

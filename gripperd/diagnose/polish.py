@@ -90,7 +90,7 @@ def polished(problem: Problem, point: Point) -> Polished:
         start = cost
         for _ in range(TRIALS):
             damped = matrix + damping * np.diag(np.diag(matrix))
-            aim = bounded(damped, pull + damped @ here, low, high)
+            aim = bounded(damped, pull + damped @ here, low, high, here)
             there = _moved(problem, point, coordinates, aim)
             new_cost, new_white = _cost(problem, there, coordinates)
             if new_cost < cost:

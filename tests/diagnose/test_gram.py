@@ -71,3 +71,23 @@ def test_no_column_explains_nothing() -> None:
     columns, target = _random()
     fit = _gram(columns, target).fit([])
     assert fit.cost == pytest.approx(float(np.sum(target**2)))
+
+
+def test_the_best_is_the_same_wherever_the_solution_starts() -> None:
+    columns, target = _random()
+    z = columns.reshape(-1, COLUMNS)
+    matrix, moments = z.T @ z + np.eye(COLUMNS), z.T @ target.ravel()
+    low, high = np.array([-1.0, 0.0, 0.0, -0.1, 0.3]), np.full(COLUMNS, 0.5)
+    best = bounded(matrix, moments, low, high)
+    for start in (low, high, (low + high) / 2):
+        np.testing.assert_allclose(
+            bounded(matrix, moments, low, high, start), best, atol=1e-9
+        )
+
+
+def test_what_is_held_from_both_sides_stays() -> None:
+    held = np.array([2.0, -3.0])
+    matrix = np.array([[2.0, 1.0, 0.0], [1.0, 3.0, 1.0], [0.0, 1.0, 4.0]])
+    low, high = np.array([2.0, -3.0, -9.0]), np.array([2.0, -3.0, 9.0])
+    best = bounded(matrix, np.array([1.0, 1.0, 1.0]), low, high)
+    np.testing.assert_allclose(best, [*held, (1.0 + 3.0) / 4.0])
