@@ -12,7 +12,7 @@ from gripperd.diagnose.constants import NUISANCE
 from gripperd.diagnose.gram import Fit, Gram
 from gripperd.diagnose.point import FREED, Point
 from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.response import responses, sensitivities
+from gripperd.diagnose.response import Base, responses, sensitivities
 from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -80,9 +80,9 @@ class Design:
 
 def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Design:
     """Evaluate and whiten the response of everything, around a point."""
-    residuals = problem.residuals(point)
-    slopes = sensitivities(problem, point)
-    build = _Builder(problem, residuals)
+    base = Base.of(problem, point)
+    slopes = sensitivities(problem, point, base)
+    build = _Builder(problem, base.expected)
     starts = (point.shifts / point.widths).tolist()
     for start, width, reach, response in zip(
         starts,
@@ -93,7 +93,9 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
     ):
         build.add(response, width, start, (-reach, reach))
     nuisance = np.arange(build.width, dtype=np.intp)
-    acting = tuple(_acting(problem, point, effect, build) for effect in point.effects)
+    acting = tuple(
+        _acting(problem, point, effect, base, build) for effect in point.effects
+    )
     members: list[Member] = []
     names: set[str] = set()
     for candidate in listed:
@@ -107,7 +109,7 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
             column = build.add(response, FREED, 0.0, (-NUISANCE, NUISANCE))
             columns, scales = [column], [FREED]
         else:
-            columns, scales = _response(problem, point, candidate.effect, build)
+            columns, scales = _response(problem, point, candidate.effect, base, build)
         if columns:
             found = np.array(columns, dtype=np.intp), np.array(scales)
             members.append(Member(candidate, *found))
@@ -119,12 +121,14 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
 
 
 def _acting(
-    problem: Problem, point: Point, effect: Effect, build: "_Builder"
+    problem: Problem, point: Point, effect: Effect, base: Base, build: "_Builder"
 ) -> Member:
     known = parameters(effect)
     columns, scales = [], []
     names = amplitudes(effect)
-    for name, response in zip(names, responses(problem, point, effect), strict=True):
+    for name, response in zip(
+        names, responses(problem, point, effect, base), strict=True
+    ):
         prior = problem_prior(problem, response) or 1.0
         start = getattr(effect, name) / known[name].scale / prior
         low, high = (
@@ -138,12 +142,14 @@ def _acting(
 
 
 def _response(
-    problem: Problem, point: Point, effect: Effect, build: "_Builder"
+    problem: Problem, point: Point, effect: Effect, base: Base, build: "_Builder"
 ) -> tuple[list[int], list[float]]:
     known = parameters(effect)
     columns, scales = [], []
     names = amplitudes(effect) or [""]
-    for name, response in zip(names, responses(problem, point, effect), strict=True):
+    for name, response in zip(
+        names, responses(problem, point, effect, base), strict=True
+    ):
         prior = problem_prior(problem, response)
         if prior is None:
             continue
@@ -189,9 +195,9 @@ def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:
 class _Builder:
     """Gathers responses and turns them into inner products, block by block."""
 
-    def __init__(self, problem: Problem, residuals: Sequence[Array]) -> None:
+    def __init__(self, problem: Problem, expected: Sequence[Array]) -> None:
         self._problem = problem
-        self._targets = [one.copy() for one in residuals]
+        self._targets = [y - f for y, f in zip(problem.measured, expected, strict=True)]
         self._responses: list[tuple[Sequence[Array], float]] = []
         self._bounds: list[tuple[float, float]] = []
 

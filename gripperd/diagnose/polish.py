@@ -16,7 +16,7 @@ from gripperd.diagnose.design import limits, problem_prior
 from gripperd.diagnose.gram import bounded
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.response import change, responses, sensitivities
+from gripperd.diagnose.response import Base, change, responses, sensitivities
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -119,9 +119,12 @@ def bounds(
 
 
 def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
+    if not point.effects:
+        return ()
     found: list[Coordinate] = []
+    base = Base.of(problem, point)
     for effect in point.effects:
-        answers = iter(responses(problem, point, effect))
+        answers = iter(responses(problem, point, effect, base))
         for name, known in parameters(effect).items():
             if known.is_amplitude:
                 prior = problem_prior(problem, next(answers)) or 1.0
@@ -186,14 +189,12 @@ def slopes(
     coordinates: Sequence[Coordinate],
 ) -> Array:
     """Whitened change of every prediction for one unit of each parameter, (n, k)."""
-    here_model = problem.explanation(point)
-    base = problem.expected(here_model)
-    tracks = problem.tracks(here_model)
+    base = Base.of(problem, point)
     acting = {effect.name: effect for effect in point.effects}
     columns = [
         [width * column for column in response]
         for width, response in zip(
-            point.widths.tolist(), sensitivities(problem, point), strict=True
+            point.widths.tolist(), sensitivities(problem, point, base), strict=True
         )
     ]
     here = coefficients(point, coordinates)
@@ -206,7 +207,7 @@ def slopes(
         vector[count + index] += step
         there = problem.explanation(_moved(problem, point, coordinates, vector))
         effect = acting[coordinate.effect]
-        columns.append(change(problem, there, base, effect, tracks, step))
+        columns.append(change(problem, base, there, effect, step))
     return np.concatenate(
         [
             problem.white([column[index] for column in columns], index)

@@ -1,7 +1,7 @@
 """How a recording would change with every constant and every effect."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.point import Point
@@ -15,29 +15,47 @@ STEP = 0.25
 """Step of a difference quotient, in sigma of a constant or scales of an amplitude."""
 
 
-def sensitivities(problem: Problem, point: Point) -> list[list[Array]]:
+@dataclass(frozen=True)
+class Base:
+    """What is expected at a point, from which changes are counted."""
+
+    explanation: Explanation
+    tracks: tuple[Runs, ...]
+    expected: list[Array]
+
+    @classmethod
+    def of(cls, problem: Problem, point: Point) -> "Base":
+        """Evaluate a problem at a point."""
+        explanation = problem.explanation(point)
+        tracks = problem.tracks(explanation)
+        return cls(explanation, tracks, problem.expected(explanation, tracks=tracks))
+
+
+def sensitivities(
+    problem: Problem, point: Point, base: Base | None = None
+) -> list[list[Array]]:
     """Change of every block for one sigma of each constant; constants first."""
-    base = problem.expected(problem.explanation(point))
+    here = (base or Base.of(problem, point)).expected
     # Constants of one sweep each are moved together: none feels the others.
     own = [i for i, one in enumerate(problem.constants) if one.course is not None]
-    apart = _slope(problem, point, own, base) if own else []
+    apart = _slope(problem, point, own, here) if own else []
     found: list[list[Array]] = []
     for index, constant in enumerate(problem.constants):
         if constant.course is None:
-            found.append(_slope(problem, point, [index], base))
+            found.append(_slope(problem, point, [index], here))
         else:
             found.append(_of_course(problem, apart, constant.course))
     return found
 
 
 def _slope(
-    problem: Problem, point: Point, indices: list[int], base: list[Array]
+    problem: Problem, point: Point, indices: list[int], here: list[Array]
 ) -> list[Array]:
     shifts = point.shifts.copy()
     shifts[indices] += STEP
     there = problem.explanation(replace(point, shifts=shifts))
     moved_on = frozenset[Signal]().union(*(problem.constants[i].moves for i in indices))
-    return _quotient(problem, problem.expected(there, moved_on), base, STEP)
+    return _quotient(problem, problem.expected(there, moved_on), here, STEP)
 
 
 def _of_course(problem: Problem, columns: list[Array], course: int) -> list[Array]:
@@ -49,48 +67,46 @@ def _of_course(problem: Problem, columns: list[Array], course: int) -> list[Arra
     ]
 
 
-def responses(problem: Problem, point: Point, effect: Effect) -> list[list[Array]]:
+def responses(
+    problem: Problem, point: Point, effect: Effect, base: Base | None = None
+) -> list[list[Array]]:
     """Change of every block for one scale of each amplitude of an effect.
 
     For an effect that already acts at the point, the slope there; for a new one
     its response at one scale, so that an effect with a threshold is seen.
     """
-    here = problem.explanation(point)
+    base = base or Base.of(problem, point)
     acts = any(one.name == effect.name for one in point.effects)
-    base = problem.explanation(point.without(effect.name)) if not acts else here
-    tracks = problem.tracks(base)
-    start = problem.expected(base, None, tracks)
     return [
-        change(problem, base.with_effect(one), start, one, tracks, size)
+        change(problem, base, base.explanation.with_effect(one), one, size)
         for one, size in _nudged(effect, acts=acts)
     ]
 
 
 def change(
     problem: Problem,
+    base: Base,
     there: Explanation,
-    here: list[Array],
     effect: Effect,
-    tracks: Sequence[Runs],
     step: float,
 ) -> list[Array]:
     """Difference quotient of every block when one effect changes.
 
     Parameters
     ----------
-    there, here
-        The explanation with the change, and what is expected without.
+    base
+        Without the change.
+    there
+        The explanation with it.
     effect
         What changed.
-    tracks
-        What happened, without the change.
     step
         Its size.
     """
     # A sensor changes what is thought to have happened; nothing else does.
-    known = None if effect.stage is Stage.SENSOR else tracks
+    known = None if effect.stage is Stage.SENSOR else base.tracks
     expected = problem.expected(there, moves(effect), known)
-    return _quotient(problem, expected, here, step)
+    return _quotient(problem, expected, base.expected, step)
 
 
 def _quotient(

@@ -12,11 +12,9 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.response import change, sensitivities
-from gripperd.diagnose.runs import Runs
+from gripperd.diagnose.response import Base, change, sensitivities
 from gripperd.model.effect import Effect
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
@@ -47,21 +45,17 @@ class Start:
     """Sweeps without any effect, to compare with."""
 
     problem: Problem
-    base: Explanation
-    tracks: tuple[Runs, ...]
-    here: list[Array]
+    base: Base
 
     @classmethod
     def of(cls, problem: Problem, point: Point) -> "Start":
         """Evaluate a problem at a point."""
-        base = problem.explanation(point)
-        tracks = problem.tracks(base)
-        return cls(problem, base, tracks, problem.expected(base, tracks=tracks))
+        return cls(problem, Base.of(problem, point))
 
     def change(self, effect: Effect) -> list[Array]:
         """Change of every block by an effect. [SI]."""
-        there = self.base.with_effect(effect)
-        return change(self.problem, there, self.here, effect, self.tracks, step=1.0)
+        there = self.base.explanation.with_effect(effect)
+        return change(self.problem, self.base, there, effect, step=1.0)
 
 
 class Fits:
