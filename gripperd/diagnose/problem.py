@@ -17,7 +17,7 @@ from gripperd.diagnose.runs import Runs
 from gripperd.diagnose.stages import passed_on, predictable, predicted
 from gripperd.diagnose.track import track_of
 from gripperd.diagnose.usable import usable
-from gripperd.diagnose.whitening import whitened
+from gripperd.diagnose.whitening import innovations, law_of
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -175,8 +175,15 @@ class Problem:
 
     def white(self, columns: Sequence[Array], index: int) -> Array:
         """Whiten columns of one block, shape ``(n, k)``."""
-        noise = self.noises[self.blocks[index].signal]
-        return whitened(np.column_stack(columns), self.times[index], noise)
+        return innovations(np.column_stack(columns), *self._laws[index])
+
+    @cached_property
+    def _laws(self) -> list[tuple[Array, Array]]:
+        """Steps and law of the noise block by block."""
+        return [
+            law_of(time, self.noises[block.signal])
+            for block, time in zip(self.blocks, self.times, strict=True)
+        ]
 
     @cached_property
     def zeros(self) -> list[Array]:

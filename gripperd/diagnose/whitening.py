@@ -33,14 +33,20 @@ def whitened(columns: Array, time: Array, noise: Noise) -> Array:
     -------
     Innovations, shape ``(n, k)``. [-]
     """
+    return innovations(columns, *law_of(time, noise))
+
+
+def law_of(time: Array, noise: Noise) -> tuple[Array, Array]:
+    """Steps between the samples, and what :func:`innovations` needs of the noise."""
     step = np.diff(time, prepend=time[:1])
     usual = float(np.median(step[1:])) if step.size > 1 else 1.0
-    fast, slow = noise.std, max(noise.drift, 1e-6 * noise.std)
-    return compiled(_innovations)(
-        np.ascontiguousarray(columns),
-        step,
-        np.array([fast, noise.correlation, usual, slow, noise.memory]),
-    )
+    slow = max(noise.drift, 1e-6 * noise.std)
+    return step, np.array([noise.std, noise.correlation, usual, slow, noise.memory])
+
+
+def innovations(columns: Array, step: Array, law: Array) -> Array:
+    """Map columns as :func:`whitened` does, by a law that is known already."""
+    return compiled(_innovations)(np.ascontiguousarray(columns), step, law)
 
 
 def _innovations(columns: Array, step: Array, law: Array) -> Array:
@@ -79,11 +85,7 @@ def _innovations(columns: Array, step: Array, law: Array) -> Array:
 
 def log_scale(time: Array, noise: Noise) -> float:
     """Sum of the log standard deviations of the innovations: the volume. [nat]."""
-    step = np.diff(time, prepend=time[:1])
-    usual = float(np.median(step[1:])) if step.size > 1 else 1.0
-    slow = max(noise.drift, 1e-6 * noise.std)
-    law = np.array([noise.std, noise.correlation, usual, slow, noise.memory])
-    return compiled(_log_scales)(step, law)
+    return compiled(_log_scales)(*law_of(time, noise))
 
 
 def _log_scales(step: Array, law: Array) -> float:
