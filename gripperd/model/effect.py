@@ -87,7 +87,11 @@ class Effect(Protocol):
         ...
 
     def rest(self) -> "Array":
-        """Memory before the first sample; empty when it remembers nothing."""
+        """Memory before the first sample; empty when it remembers nothing.
+
+        With an empty one, what it does to a sample depends on that sample alone: the
+        samples before it may be of another run.
+        """
         ...
 
     def along(self, value: "Array", track: "Track", memory: "Array") -> "Array":
