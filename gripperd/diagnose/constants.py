@@ -59,6 +59,8 @@ class Constant:
     sigma: float
     stated: bool
     """Whether the model file states the tolerance."""
+    usual: float = 0.0
+    """The sigma of parts as they are made; 0 of what is no part."""
 
     @property
     def moves(self) -> frozenset[Signal]:
@@ -148,14 +150,16 @@ def _of_part(
     for name in names if part is not None else ():
         path = f"{owner}.{name}"
         nominal = float(getattr(part, name))
-        sigma = tolerances.get(path, PLAIN * abs(nominal))
-        if name == "pressure_low" and path not in tolerances:
+        usual = PLAIN * abs(nominal)
+        if name == "pressure_low":
             assert explanation.regulator is not None
-            sigma = PLAIN / 4 * explanation.regulator.pressure_high
+            usual = PLAIN / 4 * explanation.regulator.pressure_high
+        sigma = tolerances.get(path, usual)
         if name == "friction_coefficient":
-            sigma = max(sigma, FRICTION * nominal)
+            usual = FRICTION * nominal
+            sigma = max(sigma, usual)
         if sigma > 0 and isfinite(sigma):
-            yield Constant(path, nominal, sigma, path in tolerances)
+            yield Constant(path, nominal, sigma, path in tolerances, usual)
 
 
 def moved(

@@ -36,6 +36,13 @@ def test_a_constant_without_one_is_known_to_about_a_part_tolerance() -> None:
     assert 0.005 * diameter.nominal < diameter.sigma < 0.02 * diameter.nominal
 
 
+def test_what_parts_are_made_to_does_not_depend_on_what_is_stated() -> None:
+    stated = _listed(muscle__diameter=3e-5, valve__pressure_low=100.0)
+    for path, constant in _listed().items():
+        assert stated[path].usual == constant.usual
+        assert constant.usual in (constant.sigma, 0.0)
+
+
 def test_a_constant_stated_to_be_exact_does_not_move() -> None:
     assert "muscle.diameter" not in _listed(muscle__diameter=0.0)
 
