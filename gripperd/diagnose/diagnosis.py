@@ -45,7 +45,7 @@ from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.signature import signature
 from gripperd.diagnose.thinning import thinned
-from gripperd.diagnose.tolerances import with_wider_tolerances
+from gripperd.diagnose.tolerances import with_usual_tolerances
 from gripperd.diagnose.where import Finding, findings
 from gripperd.model.effect import Effect, Signal, Stage
 
@@ -164,7 +164,7 @@ def _diagnosed(
         progress("rest length", 0.8)
         best = with_other_length(train, best, listed, rng)
     best = with_overstepped(found, best, listed)
-    best = with_wider_tolerances(found, best, listed)
+    best = with_usual_tolerances(found, best)
     progress("verdict", 0.9)
     return _told(recording, parts, found, best, untested, seed)
 

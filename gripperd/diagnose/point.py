@@ -20,10 +20,14 @@ class Point:
     effects: tuple[Effect, ...] = ()
     freed: frozenset[int] = frozenset()
     """Constants found to be wrong: their tolerance no longer holds them."""
+    looser: tuple[float, ...] = ()
+    """Prior of each constant instead, in its stated sigma; none for as stated."""
 
     @property
     def widths(self) -> Array:
         """Prior of each constant, in its stated sigma."""
+        if self.looser:
+            return np.array(self.looser)
         widths = np.ones_like(self.shifts)
         widths[list(self.freed)] = FREED
         return widths

@@ -23,7 +23,7 @@ def summary(diagnosis: Diagnosis) -> str:
     gap = _closed(diagnosis)
     match diagnosis.verdict:
         case Verdict.NAMED:
-            return f"The model {_told(diagnosis.named)}{gap}."
+            return f"The model {_told(diagnosis.named)}{_tight(diagnosis)}{gap}."
         case Verdict.AMBIGUOUS:
             return (
                 f"The model is off, and this recording cannot tell {_open(diagnosis)}."
@@ -42,7 +42,8 @@ def summary(diagnosis: Diagnosis) -> str:
 def statement(diagnosis: Diagnosis, entry: Named) -> str:
     """Say what one effect or constant does and what to do about it, in one sentence."""
     if entry.effect is None:
-        return f"{_corrected(diagnosis, entry)}; correct the model{_or(entry)}."
+        whose = "the model and its tolerance" if _tight(diagnosis) else "the model"
+        return f"{_corrected(diagnosis, entry)}; correct {whose}{_or(entry)}."
     title, worth = plain(entry.name).capitalize(), _size(entry.signal, entry.size)
     size = f"worth {worth} of {entry.signal.value} (rms)"
     if diagnosis.verdict is Verdict.UNEXPLAINED:
@@ -89,6 +90,11 @@ def _told(entries: Sequence[Named]) -> str:
     if wrong:
         said.append(f"has a wrong {listed(wrong)}")
     return " and ".join(said)
+
+
+def _tight(diagnosis: Diagnosis) -> str:
+    tight = diagnosis.explained.looser
+    return ", and tolerances tighter than its parts keep" if tight else ""
 
 
 def _closed(diagnosis: Diagnosis) -> str:

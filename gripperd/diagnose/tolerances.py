@@ -1,65 +1,60 @@
 """Tolerances that are stated too tight: several constants at once lie beyond theirs."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from gripperd.diagnose.candidates import WRONG, Candidate
-from gripperd.diagnose.constants import PARTS
-from gripperd.diagnose.design import design
+from gripperd.diagnose.constants import TOLERATED
 from gripperd.diagnose.found import Found
-from gripperd.diagnose.polish import polished
+from gripperd.diagnose.polish import Polished, polished
 from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.rival import Rival, added
-from gripperd.diagnose.rivalry import Contest, contest
+from gripperd.diagnose.rival import Rival
+from gripperd.diagnose.rivalry import SURE, Contest
 
+THIRD = 3.0
+"""How much too tight a stated tolerance may be: a limit is often taken for three sigma,
+and parts lie anywhere within. [-]"""
 SEVERAL = 2
 """Constants beyond their tolerance that speak of the tolerances, not of one part."""
 
 
-def with_wider_tolerances(
-    found: Found, best: Contest, listed: Sequence[Candidate]
-) -> Contest:
-    """Let constants alone explain what effects do, if they do it better.
+def with_usual_tolerances(found: Found, best: Contest) -> Contest:
+    """Let constants alone explain what effects do, if parts as usual can.
 
     Held by tolerances that are too tight, constants leave a misfit that any effect of
-    a similar form takes up. Freed one after the other they leave none.
+    a similar form takes up. Parts no better than they are made leave none.
 
     Parameters
     ----------
     found, best
         The search and its outcome.
-    listed
-        What could be missing.
     """
-    wrong = _stated(found.problem)
-    if found.problem.is_hot or not best.best.candidates or not wrong:
+    problem, here = found.problem, best.best
+    usual = tuple(
+        min(max(one.usual / one.sigma, 1.0), THIRD) for one in problem.constants
+    )
+    if not here.candidates or max(usual) == 1:
         return best
-    rival = _freed(found, wrong)
-    if len(rival.candidates) < SEVERAL or rival.evidence <= best.best.evidence:
+    start = replace(found.null.fit.point, looser=usual)
+    rival = _beyond(problem, polished(problem, start))
+    count = len(rival.candidates)
+    lead = rival.evidence - here.evidence
+    if count < SEVERAL or lead < -SURE:
         return best
-    return contest(replace(found, best=rival), listed)
+    alike = (here,) if lead <= SURE and here.names[0] not in rival.names else ()
+    # They go together: none of them is an explanation without the others.
+    return Contest(rival, (found.null,) * count, (alike, *((),) * (count - 1)))
 
 
-def _stated(problem: Problem) -> list[Candidate]:
-    return [
-        Candidate(WRONG + constant.path, None, index)
-        for index, constant in enumerate(problem.constants)
-        if constant.stated and constant.path.partition(".")[0] in PARTS
+def _beyond(problem: Problem, fit: Polished) -> Rival:
+    """Call wrong what lies beyond a stated tolerance, the furthest first."""
+    sizes = dict(enumerate(abs(fit.point.shifts).tolist()))
+    wrong = [
+        index
+        for index in sorted(sizes, key=lambda one: -sizes[one])
+        if sizes[index] > TOLERATED and fit.point.looser[index] > 1
     ]
-
-
-def _freed(found: Found, wrong: Sequence[Candidate]) -> Rival:
-    """Free one constant after the other, for as long as it is no chance."""
-    problem, rival = found.problem, found.null
-    while True:
-        left = [one for one in wrong if one not in rival.candidates]
-        around = design(problem, rival.fit.point, left)
-        gains = {one: around.fit(one).evidence for one in around.members}
-        leader = max(gains, key=lambda one: gains[one], default=None)
-        base = around.fit().evidence
-        if leader is None or gains[leader] - base <= found.threshold:
-            return rival
-        rival = Rival(
-            (*rival.candidates, leader.candidate),
-            polished(problem, added(rival.fit.point, leader.candidate)),
-        )
+    point = replace(fit.point, freed=frozenset(wrong))
+    return Rival(
+        tuple(Candidate(WRONG + problem.constants[i].path, None, i) for i in wrong),
+        replace(fit, point=point),
+    )

@@ -28,3 +28,9 @@ def test_effects_of_a_point_come_and_go_by_name(start: Point) -> None:
         "coulomb_friction",
     }
     assert again.without("coulomb_friction").effects == (ValveOffset(offset=5e3),)
+
+
+def test_looser_priors_hold_for_all_constants(start: Point) -> None:
+    looser = tuple(2.0 for _ in start.shifts)
+    point = replace(start, looser=looser, freed=frozenset({1}))
+    assert set(point.widths) == {2.0}
