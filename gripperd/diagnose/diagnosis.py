@@ -195,7 +195,9 @@ def _told(
     judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     entries = named(found, best, judged)
     main = _main(best, judged)
-    if slip or (main is not None and not judged[main].confirms(len(entries))):
+    # That tolerances are too tight is one finding, however many constants it moves.
+    effects = 1 if nearest.looser else len(entries)
+    if slip or (main is not None and not judged[main].confirms(effects)):
         conclusion = not_confirmed(conclusion)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.

@@ -7,6 +7,7 @@ import pytest
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
+from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.rivalry import SURE, Contest
 from gripperd.diagnose.statement import statement, summary
@@ -77,6 +78,11 @@ def test_it_is_said_that_the_tolerances_are_too_tight(both: Diagnosis) -> None:
     assert statement(both, both.named[0]).endswith(
         "correct the model and its tolerance."
     )
+
+
+def test_they_are_one_finding(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Gap, "confirms", lambda _gap, effects: effects == 1)
+    assert _told(0.02, -0.02).verdict is Verdict.NAMED
 
 
 def test_one_alone_is_what_shows_in_its_way() -> None:
