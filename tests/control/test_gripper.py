@@ -376,3 +376,17 @@ def test_a_stall_on_the_way_ends_no_move(ready: Stage, after: int) -> None:
     ready.tick(2.0)
     ready.until(lambda: ready.command(command).final)
     assert ready.command(command).status is Status.SUCCEEDED
+
+
+@pytest.mark.parametrize("after", range(0, 160, 8))
+def test_a_stall_is_no_time_in_which_a_force_could_be_corrected(
+    holding: Stage, after: int
+) -> None:
+    # With another bore the feed-forward alone comes nowhere near.
+    holding.gripper.use(holding.chain.varied("muscle.diameter", 0.001))
+    command = holding.submit(Adjust(force=20.0))
+    for _ in range(after):
+        holding.tick()
+    holding.tick(6.0)
+    holding.until(lambda: holding.command(command).final)
+    assert holding.command(command).status is Status.SUCCEEDED
