@@ -57,6 +57,10 @@ class Course:
         """Column without its noise where that was taken off."""
         return self.smooth[name].value if name in self.smooth else self.column(name)
 
+    def hush(self, name: str) -> float:
+        """One sigma of the noise that was taken off a column, 0 where none was."""
+        return self.smooth[name].variance ** 0.5 if name in self.smooth else 0.0
+
     def rate(self, name: str) -> Array:
         """Rate of a column, 0 where its noise was not taken off. [1/s]."""
         return (

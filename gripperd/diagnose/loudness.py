@@ -16,10 +16,11 @@ POINTS = 0.002
 """Noise of settled points in a table, of full scale. [-]"""
 RESOLUTION = 1e-4
 """Of any reading, of full scale. [-]"""
-LINKAGE = 0.01
-"""How well any linkage is known, of the largest grip: joints have play. [-]"""
-WANDERS = 3.0
-"""Time in which what is left of the force in the grip forgets. [s]"""
+REVERSIBLE = 0.003
+"""Difference between a rising and a falling reading of the grip, of the largest, that
+says nothing of the joints: reversibility of a transducer of class 1, ISO 376. [-]"""
+TURNS = 3.0
+"""Time in which a grip that rises turns to one that falls. [s]"""
 
 
 def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
@@ -63,25 +64,27 @@ def _audible(noise: Noise, signal: Signal, sweeps: tuple[Course, ...]) -> Noise:
 def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, Noise]:
     """Give the grip what is wrong with the force that it is predicted from.
 
-    That is its drift and what its noise leaves in the smooth column, beside the play
-    of the joints. What lasts longest is taken for what forgets soonest: it is no part
-    of a grasp that must be told from another.
+    Both are compared reading by reading, so that the residual has the noise of two
+    cells, and the drift of both beside what neither repeats when it turns round. None
+    is told from that residual, which is short. Sums keep the variance of a reading and
+    of a mean over many.
     """
     force, grip, linkage = (
         noises.get(Signal.FORCE), noises.get(Signal.GRIP), problem.model.linkage,
     )  # fmt: skip
     if force is None or grip is None or linkage is None:
         return noises
-    places = [block for block in problem.blocks if block.signal is Signal.GRIP]
-    sweeps = [problem.courses[place.course] for place in places]
-    own = quick_noise(
-        sweep.column("grip")[place.good]
-        for sweep, place in zip(sweeps, places, strict=True)
-    )
-    kept = float(np.mean([s.smooth["force"].leverage for s in sweeps]))
-    wander = kept * force.slow_variance / linkage.ratio**2
-    drift = grip.drift**2 + (force.drift / linkage.ratio) ** 2
-    play = (LINKAGE * problem.full_scale[Signal.GRIP]) ** 2
-    slow = (wander + drift + play) ** 0.5
-    std = min(grip.std, own.std)
-    return noises | {Signal.GRIP: Noise(std, own.correlation, slow, WANDERS)}
+    readings = [
+        problem.courses[block.course].column("grip")[block.good]
+        for block in problem.blocks
+        if block.signal is Signal.GRIP
+    ]
+    own = quick_noise(readings, coarse_step(readings))
+    fast = own.std**2 + (force.std / linkage.ratio) ** 2
+    mean = own.slow_variance + force.slow_variance / linkage.ratio**2
+    correlation = (mean - fast) / (mean + fast)
+    turned = REVERSIBLE * problem.full_scale[Signal.GRIP]
+    slow = np.square([grip.drift, force.drift / linkage.ratio, turned])
+    memory = float(np.average([grip.memory, force.memory, TURNS], weights=slow))
+    drift = float(slow.sum() ** 0.5)
+    return noises | {Signal.GRIP: Noise(fast**0.5, correlation, drift, memory)}

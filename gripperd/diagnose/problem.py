@@ -47,7 +47,7 @@ class Problem:
             for signal in predictable(course):
                 if signal not in self.noises or not self._has_part(signal):
                     continue
-                good = usable(course, signal, self.noises[signal].std)
+                good = usable(course, signal, course.hush(signal.value))
                 if signal is Signal.FORCE:
                     good &= course.level("force") > self.slack
                 if self.kept:

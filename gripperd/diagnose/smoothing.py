@@ -27,8 +27,6 @@ class Smooth(NamedTuple):
     """Log density of the column, up to a constant. [nat]"""
     variance: float = 0.0
     """Of the noise that was taken off, as :func:`smooth` was told."""
-    leverage: float = 0.0
-    """Share of a reading in its own smooth value: that of the noise that stays. [-]"""
 
 
 def smooth(time: Array, column: Array, variance: float, supple: float = 1.0) -> Smooth:
@@ -56,17 +54,11 @@ def smooth(time: Array, column: Array, variance: float, supple: float = 1.0) -> 
     best = STIFFNESSES[int(np.argmax(likelihoods))] * supple
     _, states, spreads = compiled(_filter)(scaled, step, best)
     level, slope = compiled(_smoother)(states, spreads, step, best)
-    middle = column.size // 2
-    pulse = np.zeros_like(column)
-    pulse[middle] = 1.0
-    _, states, spreads = compiled(_filter)(pulse, step, best)
-    kept = compiled(_smoother)(states, spreads, step, best)[0][middle]
     return Smooth(
         level * scale + np.nanmean(column),
         slope * scale,
         max(likelihoods),
         variance,
-        float(kept),
     )
 
 

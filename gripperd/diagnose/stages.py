@@ -68,8 +68,7 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
     if signal is Signal.FORCE:
         track = _strained(explanation, track)
     if signal is Signal.GRIP:
-        direction = track.each(lambda load, _: leaning(load), track.force)
-        track = replace(track, direction=direction)
+        track = _leaned(track)
     value = _START[signal](explanation, track)
     for effect in explanation.effects:
         if effect.signal is signal and effect.stage is not Stage.SENSOR:
@@ -82,6 +81,12 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
     # Neither does a regulator suck, nor do jaws pull at what they hold.
     bounded = signal in (Signal.PRESSURE, Signal.GRIP)
     return np.maximum(value, 0.0) if bounded else value
+
+
+def _leaned(track: Runs) -> Runs:
+    """Joints rub the way their load goes: jaws on an object hardly travel."""
+    direction = track.each(lambda load, _: leaning(load), track.force)
+    return replace(track, direction=direction)
 
 
 def _strained(explanation: Explanation, track: Runs) -> Runs:
@@ -158,17 +163,24 @@ _START: Mapping[Signal, Callable[[Explanation, Track], Array]] = {
 
 
 def passed_on(
-    explanation: Explanation, course: Course, track: Track, signal: Signal
+    explanation: Explanation, course: Course, track: Runs, signal: Signal
 ) -> Array | float:
     """What smooth inputs leave out of a prediction: noise, and sharp corners.
 
     It belongs to the residual as the noise it is. Left inside the prediction, any
-    effect that filters its input would seem to explain it.
+    effect that filters its input would seem to explain it. A grip is compared with the
+    force reading by reading: a smooth force lags where jaws meet and leave an object,
+    as friction in the joints does, and its noise would be as slow as an effect.
     """
     if signal is Signal.PRESSURE:
         return 0.0
     length = "length" if "length" in course.smooth else "contraction"
+    if signal is Signal.GRIP:
+        track = _leaned(track)
     sharp = replace(track, contraction=course.level(length))
+    if signal is Signal.GRIP:
+        beside = course.column("force") - course.level("force")
+        sharp = replace(sharp, force=track.force + beside)
     rough = [_START[signal](explanation, one) for one in (sharp, track)]
     for effect in explanation.effects:
         if effect.signal is signal and not effect.rest().size:

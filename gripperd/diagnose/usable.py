@@ -43,8 +43,7 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
         good &= np.isfinite(course.level(name))
     if signal is Signal.GRIP:
         # Without contact the jaws are moved by the muscle alone and press on nothing.
-        good &= (measured > 5 * noise) & np.isfinite(course.level("force"))
-        good &= ~_missed(course, "force")
+        good &= (measured > 5 * noise) & np.isfinite(course.column("force"))
         good &= ~_turning(leaning(course.level("force")))
     sweeps = "pressure" in course.smooth and not is_table((course,))
     if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):

@@ -20,6 +20,7 @@ from gripperd.model.track import Array
 
 STEP = 0.25
 FORCE_NOISE, PRESSURE_NOISE, CONTRACTION_NOISE = 3.0, 1e3, 2e-4
+GRIP_NOISE = 0.5
 SEED = 3
 
 MUSCLE = Muscle(
@@ -173,6 +174,20 @@ def with_jaws(plain: Recording, seed: int = SEED) -> Recording:
             + random.normal(0.0, 2e-4, len(run)),
         },
     )
+
+
+def with_grip(plain: Recording, preload: float = 240.0) -> Recording:
+    """The same with jaws on something as wide as they are open."""
+    random = np.random.default_rng([SEED, 70])
+    moment = moments()
+    runs = []
+    for run in plain.runs:
+        happened = moment[run.name]
+        spring = preload + 1000.0 * 0.25 * happened.contraction
+        grip = np.maximum((textbook(happened) - spring) / 4, 0.0)
+        read = grip + random.normal(0.0, GRIP_NOISE, len(run))
+        runs.append(Run(run.name, {**run.columns, "grip": read}, run.kind))
+    return Recording(plain.name, plain.digest, tuple(runs))
 
 
 def without(plain: Recording, *columns: str) -> Recording:

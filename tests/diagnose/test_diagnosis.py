@@ -33,6 +33,7 @@ from tests.diagnose.small import (
     with_jaws,
     without,
 )
+from tests.exam.floor import sensor_floors
 from tests.hidden_rig import make_case
 
 LIBRARY = {name: EFFECTS[name] for name in FEW}
@@ -304,7 +305,9 @@ def test_friction_of_the_linkage_is_found_from_the_files_on(tmp_path: Path) -> N
     assert told.main is Signal.GRIP
     gap = told.gaps[Signal.GRIP]
     assert gap.after < 1.2 * gap.noise_floor
-    assert gap.after < 0.3 * gap.recalibrated
+    # As both cells are noisy, a tenth of what stood out is a third of its height.
+    assert gap.closed > 0.91
+    assert gap.noise_floor == pytest.approx(sensor_floors(case.truth)["grip"], rel=0.2)
     # The rig loses this share of the pull, of which a quarter reaches the jaws.
     effects = case.truth["effects"]
     assert isinstance(effects, list)

@@ -7,6 +7,7 @@ import pytest
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.loudness import _handed_on
 from gripperd.diagnose.noise import Noise
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.setup import problem_of
@@ -14,20 +15,22 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     FORCE_NOISE,
+    GRIP_NOISE,
     LINKAGE,
     MODEL,
     PRESSURE_NOISE,
     Hidden,
     Moment,
     altered,
-    moments,
     recording,
     rubbing,
     textbook,
     threshold,
+    with_grip,
 )
 from tests.diagnose.sweep import noise
 
+JAWED = replace(MODEL, linkage=LINKAGE)
 ALL = ("vented", "a", "b", "c", "d", "e", "b2", "f")
 
 
@@ -97,48 +100,60 @@ def _drifted(seed: int) -> Callable[[Array], Array]:
     return lambda force: force + noise(force.size, 5.0, seed, float(np.exp(-1 / 40)))
 
 
-def _gripping(told: Recording, model: Explanation) -> Problem:
-    """The small rig with jaws on something as wide as they are open."""
-    moment = moments()
-    runs = []
-    for place, one in enumerate(told.runs):
-        happened = moment[one.name]
-        spring = 240.0 + 1000.0 * 0.25 * happened.contraction
-        grip = np.maximum((textbook(happened) - spring) / 4, 0.0)
-        fresh = noise(len(one), 0.5, 70 + place)
-        runs.append(Run(one.name, {**one.columns, "grip": grip + fresh}))
-    return problem_of(Recording("grip", "0" * 64, tuple(runs)), model, {})
+def _gripping(told: Recording, model: Explanation = JAWED) -> Problem:
+    return problem_of(with_grip(told), model, {})
 
 
 @pytest.fixture(scope="module")
 def gripping() -> Problem:
-    return _gripping(recording(), replace(MODEL, linkage=LINKAGE))
+    return _gripping(recording())
 
 
 def test_the_force_hands_its_noise_and_drift_on_to_the_grip(gripping: Problem) -> None:
-    quarter = tuple(
-        replace(
-            one,
-            smooth={**one.smooth, "force": one.smooth["force"]._replace(leverage=0.25)},
-        )
-        for one in gripping.courses
-    )
-    problem = replace(gripping, courses=quarter)
     told = {
-        Signal.FORCE: Noise(8.0, 0.0, drift=6.0),
-        Signal.GRIP: Noise(3.0, 0.0, drift=0.5),
+        Signal.FORCE: Noise(32.0, 0.5, drift=6.0, memory=60.0),
+        Signal.GRIP: Noise(3.0, 0.0, drift=0.5, memory=20.0),
     }
-    handed = _handed_on(told, problem)[Signal.GRIP]
-    play = 0.01 * gripping.full_scale[Signal.GRIP]
-    # By the ratio of 4: a quarter of 64 N², 36 N², and what it has of its own.
-    assert handed.drift**2 == pytest.approx(16 / 16 + 36 / 16 + 0.25 + play**2)
-    # What the force brings is slow, so the fast part is that of the sensor alone.
-    assert handed.std == pytest.approx(0.5, abs=0.2)
-    assert _handed_on(told, problem)[Signal.FORCE] == told[Signal.FORCE]
+    handed = _handed_on(told, gripping)[Signal.GRIP]
+    # By the ratio of 4: 32² N² and 36 N² over 16, and what the grip has of its own.
+    assert handed.std**2 == pytest.approx(32**2 / 16 + GRIP_NOISE**2, rel=0.03)
+    turned = (0.003 * gripping.full_scale[Signal.GRIP]) ** 2
+    assert handed.drift**2 == pytest.approx(36 / 16 + 0.25 + turned)
+    # Means over many samples: three times the variance at a correlation of a half.
+    mean = handed.std**2 * (1 + handed.correlation) / (1 - handed.correlation)
+    assert mean == pytest.approx(3 * 32**2 / 16 + GRIP_NOISE**2, rel=0.05)
+    slow = handed.drift**2 * handed.memory
+    assert slow == pytest.approx(60 * 36 / 16 + 20 * 0.25 + 3 * turned)
+    assert _handed_on(told, gripping)[Signal.FORCE] == told[Signal.FORCE]
 
 
-def test_a_grip_is_weighed_by_what_its_force_brings(gripping: Problem) -> None:
-    loud = _gripping(recording(noise=30.0), gripping.model)
-    plain, handed = (one.noises[Signal.GRIP] for one in (gripping, loud))
-    assert handed.drift > 1.3 * plain.drift
-    assert handed.std == pytest.approx(0.5, abs=0.2)
+def test_without_a_linkage_nothing_is_handed_on(gripping: Problem) -> None:
+    told = {Signal.FORCE: Noise(8.0, 0.5), Signal.GRIP: Noise(3.0, 0.0)}
+    bare = replace(gripping, model=MODEL)
+    assert _handed_on(told, bare) == told
+
+
+@pytest.mark.parametrize("loud", [4.0, 16.0])
+def test_a_grip_is_as_noisy_as_its_two_cells(loud: float) -> None:
+    problem = _gripping(recording(noise=loud))
+    both = float(np.hypot(GRIP_NOISE, loud * FORCE_NOISE / 4))
+    assert problem.noises[Signal.GRIP].std == pytest.approx(both, rel=0.2)
+    left = [
+        problem.white([residual], index)
+        for index, residual in enumerate(problem.residuals(_null(problem)))
+        if problem.blocks[index].signal is Signal.GRIP
+    ]
+    assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.2)
+
+
+def test_a_noisy_force_hides_no_contact(gripping: Problem) -> None:
+    loud = _gripping(recording(noise=8.0))
+    plain, noisy = (
+        sum(b.good.sum() for b in one.blocks if b.signal is Signal.GRIP)
+        for one in (gripping, loud)
+    )
+    assert noisy > 0.9 * plain
+
+
+def _null(problem: Problem) -> Point:
+    return Point(np.zeros(len(problem.constants)))

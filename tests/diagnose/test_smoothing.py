@@ -87,20 +87,6 @@ def test_a_single_sample_has_no_rate() -> None:
     assert (known.value.tolist(), known.rate.tolist()) == ([7.0], [0.0])
 
 
-@pytest.mark.parametrize("std", [0.5, 2.0, 8.0])
-def test_its_leverage_is_the_diagonal_of_the_dense_smoother(std: float) -> None:
-    column = 40.0 * np.sin(TIME) + noise(60, std)
-    known = smooth(TIME, column, std**2)
-    # Means and a level shift apart, the smoother is trend / (trend + noise).
-    shares = []
-    for stiffness in STIFFNESSES.tolist():
-        trend = _covariance(TIME, stiffness)
-        shares.append(np.linalg.solve(trend + np.eye(60), trend)[30, 30])
-    densities = [_density(column, std, s) for s in STIFFNESSES.tolist()]
-    assert known.leverage == pytest.approx(shares[int(np.argmax(densities))], rel=1e-3)
-    assert 0.0 < known.leverage < 1.0
-
-
 def _density(column: Array, std: float, stiffness: float) -> float:
     scaled = (column - column.mean()) / std
     covariance = _covariance(TIME, stiffness) + np.eye(column.size)

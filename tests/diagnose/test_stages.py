@@ -7,6 +7,7 @@ from gripperd.diagnose.course import Course
 from gripperd.diagnose.cutting import courses
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.smoothing import Smooth
 from gripperd.diagnose.stages import passed_on, predictable, predicted
 from gripperd.diagnose.track import track_of
 from gripperd.diagnose.usable import usable
@@ -183,3 +184,46 @@ def test_the_grip_rubs_the_way_its_load_goes() -> None:
     share = _one(rubbing, course, Signal.GRIP) / _one(JAWED, course, Signal.GRIP)
     np.testing.assert_allclose(share[20:100], 0.9)
     np.testing.assert_allclose(share[125:], 1.1)
+
+
+def _held(size: int = 201) -> tuple[Course, Array]:
+    """A grasp read by a noisy force cell, its smooth column off by a cut corner."""
+    force = 800.0 - 400.0 * np.abs(np.linspace(-1.0, 1.0, size))
+    told = run(
+        contraction=np.full(size, 0.08), force=force + noise(size, 4.0), grip=force / 4
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    cut = force - 12.0 * (np.abs(np.arange(size) - size // 2) < 8)
+    smooth = {**course.smooth, "force": Smooth(cut, np.gradient(cut))}
+    return replace(course, smooth=smooth), force
+
+
+@pytest.mark.parametrize(
+    ("loss", "rising", "falling"),
+    [
+        pytest.param(0.0, slice(0, 101), slice(101, 201), id="cut corner"),
+        # Loose but for 0.06 of 400 N from the start, and twice that from the top.
+        pytest.param(0.1, slice(20, 90), slice(130, 201), id="friction"),
+    ],
+)
+def test_a_grip_is_compared_with_the_force_reading_by_reading(
+    loss: float, rising: slice, falling: slice
+) -> None:
+    course, force = _held()
+    rubbing = JAWED.with_effect(LinkageFriction(loss=loss))
+    track = track_of(rubbing, course, 0)
+    passed = passed_on(rubbing, course, track, Signal.GRIP)
+    compared = _one(rubbing, course, Signal.GRIP) + passed
+    pull = course.column("force") - 240.0 - 1000.0 * 0.25 * 0.08
+    for side, share in ((rising, 1 - loss), (falling, 1 + loss)):
+        np.testing.assert_allclose(compared[side], share * pull[side] / 4, rtol=2e-3)
+    assert np.abs(course.level("force") - force).max() == pytest.approx(12.0)
+
+
+def test_a_noisy_force_is_passed_on_to_nothing_but_the_grip() -> None:
+    course, _ = _held()
+    soft = JAWED.with_effect(SeriesCompliance(compliance=1e-5))
+    track = track_of(soft, course, 0)
+    sharp = np.std(passed_on(soft, course, track, Signal.OPENING))
+    # 4 N would be 4e-5 m; the sharper contraction is a constant here.
+    assert sharp < 1e-6
