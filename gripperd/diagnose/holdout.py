@@ -73,14 +73,17 @@ def _spared(courses: Sequence[Course]) -> set[int]:
         for index in range(1, len(courses))
         if inside(courses, index) and not _still(courses[index], top)
     ] or list(range(1, len(courses)))
+    grasps = [index for index, course in enumerate(courses) if _gripped(course)]
+    # One grasp at most: the constants of the jaws are known from the others alone.
+    spare = [index for index in inner if index in grasps][-1:]
+    inner = [index for index in inner if index not in grasps or index in spare]
     moving = [index for index in inner if _travelled(courses[index])]
     resting = [index for index in inner if index not in moving]
     of_moving = round(wanted * len(moving) / len(inner))
     spared = {*_spread(moving, of_moving), *_spread(resting, wanted - of_moving)}
-    grasps = [index for index, course in enumerate(courses) if _gripped(course)]
     # Of three grasps one can be spared, or no sweep judges the jaws.
-    if len(grasps) >= 3 and not spared & set(grasps):
-        spared.add(grasps[-1])
+    if len(grasps) >= 3:
+        spared.update(spare or grasps[-1:])
     return spared
 
 
@@ -113,8 +116,11 @@ def _still(course: Course, top: float) -> bool:
 
 
 def inside(courses: Sequence[Course], index: int) -> bool:
-    """Whether other sweeps reach as far as this one, in every input."""
-    for name in ("current", "pressure", "contraction", "temperature"):
+    """Whether other sweeps reach as far as this one, in every input.
+
+    What the jaws do grows with the grip, so that it is one.
+    """
+    for name in ("current", "pressure", "contraction", "temperature", "grip"):
         own = courses[index].level(name)
         if not np.isfinite(own).any():
             continue

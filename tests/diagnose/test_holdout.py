@@ -83,3 +83,34 @@ def test_of_few_sweeps_the_end_of_each_is_left_out(blank: Problem) -> None:
 def test_the_parts_keep_model_and_noise(blank: Problem, parts: Split) -> None:
     for part in (parts.train, parts.test):
         assert (part.model, part.noises) == (blank.model, blank.noises)
+
+
+def _grasps(problem: Problem, pulls: tuple[float, ...]) -> tuple[Problem, list[str]]:
+    """The same with jaws in every other sweep, that press as hard as told."""
+    courses = list(problem.courses)
+    places = [2, 4, 6][: len(pulls)]
+    for place, pull in zip(places, pulls, strict=True):
+        one = courses[place]
+        grip = pull * np.sin(np.linspace(0.0, np.pi, len(one)))
+        jaws = {"opening": np.full(len(one), 0.05), "grip": grip}
+        courses[place] = replace(one, measured={**one.measured, **jaws})
+    names = [courses[place].run for place in places]
+    return replace(problem, courses=tuple(courses)), names
+
+
+@pytest.mark.parametrize("pulls", [(60, 40, 20), (20, 60, 40), (40, 20, 60)])
+def test_of_three_grasps_one_is_spared_but_not_the_strongest(
+    blank: Problem, pulls: tuple[float, ...]
+) -> None:
+    problem, names = _grasps(blank, pulls)
+    spared = set(split(problem).runs) & set(names)
+    assert len(spared) == 1
+    assert names[pulls.index(60)] not in spared
+
+
+@pytest.mark.parametrize("pulls", [(60, 40), (40, 60)])
+def test_of_two_grasps_the_stronger_is_never_spared(
+    blank: Problem, pulls: tuple[float, ...]
+) -> None:
+    problem, names = _grasps(blank, pulls)
+    assert names[pulls.index(60)] not in split(problem).runs
