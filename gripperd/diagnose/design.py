@@ -129,7 +129,7 @@ def _acting(
     for name, response in zip(
         names, responses(problem, point, effect, base), strict=True
     ):
-        prior = problem_prior(problem, response) or 1.0
+        prior = problem_prior(problem, effect, response) or 1.0
         start = getattr(effect, name) / known[name].scale / prior
         low, high = (
             bound / known[name].scale / prior for bound in limits(problem, effect, name)
@@ -150,7 +150,7 @@ def _response(
     for name, response in zip(
         names, responses(problem, point, effect, base), strict=True
     ):
-        prior = problem_prior(problem, response)
+        prior = problem_prior(problem, effect, response)
         if prior is None:
             continue
         low, high = 0.0, np.inf
@@ -162,16 +162,24 @@ def _response(
     return columns, scales
 
 
-def problem_prior(problem: Problem, response: Sequence[Array]) -> float | None:
-    """Prior sigma of an amplitude, in its scales; none when it leaves no trace."""
+def problem_prior(
+    problem: Problem, effect: Effect, response: Sequence[Array]
+) -> float | None:
+    """Prior sigma of an amplitude, in its scales; none when it leaves no trace.
+
+    It is told from the signal in which the effect is loudest. A sensor is wrong by a
+    share of its own full scale, however small what is made of its readings: the grip
+    is what the spring leaves of a pull several times as large.
+    """
     squares: dict[Signal, float] = {}
     counts: dict[Signal, int] = {}
     for block, column in zip(problem.blocks, response, strict=True):
         squares[block.signal] = squares.get(block.signal, 0.0) + float(column @ column)
         counts[block.signal] = counts.get(block.signal, 0) + column.size
-    loudest = max(
-        (squares[s] / counts[s]) ** 0.5 / problem.full_scale[s] for s in squares
-    )
+    loud = {s: (squares[s] / counts[s]) ** 0.5 / problem.full_scale[s] for s in squares}
+    loudest = max(loud.values())
+    if effect.stage is Stage.SENSOR:
+        loudest = loud.get(effect.signal) or loudest
     return TYPICAL / loudest if np.isfinite(loudest) and loudest > FAINT * 0.1 else None
 
 

@@ -127,7 +127,7 @@ def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
         answers = iter(responses(problem, point, effect, base))
         for name, known in parameters(effect).items():
             if known.is_amplitude:
-                prior = problem_prior(problem, next(answers)) or 1.0
+                prior = problem_prior(problem, effect, next(answers)) or 1.0
                 unit = prior * known.scale
             elif known.starts and not known.choices and known.high > known.low:
                 unit = 0.5 * abs(getattr(effect, name)) or 0.1 * known.high

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,14 @@ from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.length_datum import LengthDatum
 from gripperd.effects.viscous_friction import ViscousFriction
 from gripperd.model.effect import Signal
-from tests.diagnose.small import MODEL, covariance, recording, rubbing
+from tests.diagnose.small import (
+    LINKAGE,
+    MODEL,
+    covariance,
+    recording,
+    rubbing,
+    with_grip,
+)
 
 COLUMNS = frozenset({"time", "current", "pressure", "contraction", "force"})
 BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
@@ -58,7 +67,7 @@ def test_one_prior_sigma_is_a_few_per_cent_of_full_scale(
     for candidate in (BIAS, RUB):
         assert candidate.effect is not None
         (response,) = responses(blank, start, candidate.effect)
-        prior = problem_prior(blank, response)
+        prior = problem_prior(blank, candidate.effect, response)
         assert prior is not None
         force = np.concatenate(
             [
@@ -69,6 +78,22 @@ def test_one_prior_sigma_is_a_few_per_cent_of_full_scale(
         )
         size = prior * np.sqrt(np.mean(force**2)) / blank.full_scale[Signal.FORCE]
         assert 0.01 < size < 0.1
+
+
+def test_a_sensor_is_wrong_by_a_share_of_its_own_scale() -> None:
+    """A spring that leaves little of the pull makes any error loud in the grip."""
+    linkage = replace(LINKAGE, spring_preload=1000.0)
+    told = with_grip(recording(), preload=1000.0)
+    problem = problem_of(told, replace(MODEL, linkage=linkage), {})
+    assert problem.full_scale[Signal.GRIP] < 0.2 * problem.full_scale[Signal.FORCE]
+    assert BIAS.effect is not None
+    start = Point(np.zeros(len(problem.constants)))
+    (response,) = responses(problem, start, BIAS.effect)
+    prior = problem_prior(problem, BIAS.effect, response)
+    assert prior is not None
+    place = next(i for i, b in enumerate(problem.blocks) if b.signal is Signal.FORCE)
+    size = prior * float(np.max(response[place]))
+    assert size == pytest.approx(0.04 * problem.full_scale[Signal.FORCE])
 
 
 def test_what_leaves_no_trace_is_faint(blank: Problem, start: Point) -> None:
