@@ -76,14 +76,14 @@ def _spared(courses: Sequence[Course]) -> set[int]:
     grasps = [index for index, course in enumerate(courses) if _gripped(course)]
     # One grasp at most: the constants of the jaws are known from the others alone.
     spare = [index for index in inner if index in grasps][-1:]
-    inner = [index for index in inner if index not in grasps or index in spare]
-    moving = [index for index in inner if _travelled(courses[index])]
-    resting = [index for index in inner if index not in moving]
-    of_moving = round(wanted * len(moving) / len(inner))
-    spared = {*_spread(moving, of_moving), *_spread(resting, wanted - of_moving)}
-    # Of three grasps one can be spared, or no sweep judges the jaws.
-    if len(grasps) >= 3:
-        spared.update(spare or grasps[-1:])
+    # Of three it must be one, or no sweep judges the jaws.
+    spared = set((spare or grasps[-1:]) if len(grasps) >= 3 else [])
+    rest = [i for i in inner if i not in grasps or (i in spare and not spared)]
+    moving = [index for index in rest if _travelled(courses[index])]
+    resting = [index for index in rest if index not in moving]
+    wanted = max(1, wanted - len(spared))
+    of_moving = round(wanted * len(moving) / max(len(rest), 1))
+    spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
     return spared
 
 

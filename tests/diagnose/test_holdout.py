@@ -108,6 +108,12 @@ def test_of_three_grasps_one_is_spared_but_not_the_strongest(
     assert names[pulls.index(60)] not in spared
 
 
+def test_a_spared_grasp_is_one_of_the_fifth(blank: Problem) -> None:
+    problem, _ = _grasps(blank, (40, 60, 20))
+    twice = replace(problem, courses=(*problem.courses, *blank.courses))
+    assert len(split(twice).runs) == round(0.2 * 16)
+
+
 @pytest.mark.parametrize("pulls", [(60, 40), (40, 60)])
 def test_of_two_grasps_the_stronger_is_never_spared(
     blank: Problem, pulls: tuple[float, ...]
