@@ -12,8 +12,9 @@ import numpy as np
 
 from gripperd.diagnose.gram import bounded
 from gripperd.diagnose.holdout import FEW, inside
-from gripperd.diagnose.polish import Polished, bounds, coefficients, slopes
+from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.tangent import Tangent
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -37,23 +38,12 @@ def foretold(problem: Problem, fit: Polished) -> Array:
     -------
     Chi² of every block, in their order, shape ``(blocks,)``. [-]
     """
-    point, coordinates = fit.point, fit.coordinates
-    low, high = bounds(problem, point, coordinates)
-    here = coefficients(point, coordinates)
-    shapes = point.shifts.size + np.flatnonzero(
-        [not c.is_amplitude for c in coordinates]
+    tangent = Tangent.at(problem, fit)
+    here = tangent.here
+    low, high = (
+        np.where(tangent.shapes, here, bound) for bound in (tangent.low, tangent.high)
     )
-    low[shapes] = high[shapes] = here[shapes]
-    columns = slopes(problem, point, coordinates)
-    white = [
-        problem.white([residual], index)[:, 0]
-        for index, residual in enumerate(problem.residuals(point))
-    ]
-    ends = np.cumsum([one.size for one in white])
-    parts = [
-        (columns[end - one.size : end], one + columns[end - one.size : end] @ here)
-        for one, end in zip(white, ends, strict=True)
-    ]
+    parts = list(zip(tangent.columns, tangent.targets, strict=True))
     products = np.array([z.T @ z for z, _ in parts])
     moments = np.array([z.T @ y for z, y in parts])
     whole = np.diag(products.sum(0))
