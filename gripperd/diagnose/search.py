@@ -23,7 +23,7 @@ from gripperd.diagnose.preference import BORE, at_edge, preferred
 from gripperd.diagnose.price import worth
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
-from gripperd.diagnose.temperature import coolest, louder, plain, temperatures_of
+from gripperd.diagnose.temperature import cooled, louder, plain, temperatures_of
 
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
@@ -56,11 +56,11 @@ def search(
     """
     start = Point(np.zeros(len(problem.constants)))
     null = polished(problem, start)
-    found = None
-    if max(temperatures_of(null).values()) < HOPELESS:
-        found = _cooled(problem, listed, rng, null.point)
-    if found is None or found.problem.temperature(problem.signals) > MISFIT:
-        found = _cooled(plain(problem), listed, rng, null.point)
+    lost = [s for s, share in temperatures_of(null).items() if share > HOPELESS]
+    found = _cooled(plain(problem, lost), listed, rng, null.point)
+    hot = [s for s, share in found.problem.temperatures.items() if share > MISFIT]
+    if set(hot) - set(lost):
+        found = _cooled(plain(problem, [*lost, *hot]), listed, rng, null.point)
     return _grown(found, listed)
 
 
@@ -75,8 +75,7 @@ def _cooled(
     warm = {s: max(1.0, share) for s, share in temperatures_of(null).items()}
     found = _pass(louder(problem, warm), listed, rng, null.point)
     for _ in range(COOLINGS):
-        shares = coolest(rival.fit for rival in found.rivals)
-        cooler = {s: max(1.0, warm[s] * share) for s, share in shares.items()}
+        cooler = cooled(warm, (rival.fit for rival in found.rivals))
         if all(cooler[s] > 0.8 * warm[s] for s in warm):
             break
         warm = cooler

@@ -1,6 +1,6 @@
 """How much louder than its noise a signal is taken, so that misfit is no news."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -31,6 +31,14 @@ def coolest(fits: Iterable[Polished]) -> dict[Signal, float]:
     return found
 
 
+def cooled(
+    warm: Mapping[Signal, float], fits: Iterable[Polished]
+) -> dict[Signal, float]:
+    """How loud noises that were taken so warm turn out, by the best of some fits."""
+    found = {signal: warm[signal] * share for signal, share in coolest(fits).items()}
+    return {signal: share if share > HOT else 1.0 for signal, share in found.items()}
+
+
 def louder(problem: Problem, temperatures: Mapping[Signal, float]) -> Problem:
     """Give the problem with noise as loud as what no explanation reaches."""
     noises = dict(problem.noises)
@@ -44,14 +52,16 @@ def louder(problem: Problem, temperatures: Mapping[Signal, float]) -> Problem:
     )
 
 
-def plain(problem: Problem) -> Problem:
-    """Give the problem with noise that has no memory.
+def plain(problem: Problem, signals: Collection[Signal]) -> Problem:
+    """Give the problem with noise that has no memory in some signals.
 
     Where no explanation comes near the noise, its fine law says nothing about what is
     left, and every newton of misfit counts the same.
     """
     noises = {
         signal: Noise(noise.std, 0.0, 1e-3 * noise.std, noise.memory)
+        if signal in signals
+        else noise
         for signal, noise in problem.noises.items()
     }
     return replace(problem, noises=noises)
