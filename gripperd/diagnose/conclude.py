@@ -40,6 +40,8 @@ class Conclusion:
     """What is left after the best explanation."""
     share: float
     """Share of the structure that the best explanation takes away. [-]"""
+    before: tuple[Structure, ...] = ()
+    """What is left with the best constants alone."""
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -70,7 +72,7 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
         verdict = Verdict.AMBIGUOUS
     else:
         verdict = Verdict.NAMED
-    return Conclusion(verdict, after, share)
+    return Conclusion(verdict, after, share, before)
 
 
 def unusable() -> Conclusion:
@@ -79,10 +81,15 @@ def unusable() -> Conclusion:
 
 
 def not_confirmed(conclusion: Conclusion) -> Conclusion:
-    """Withdraw names that sweeps which took no part do not bear out."""
-    if conclusion.verdict in (Verdict.NAMED, Verdict.AMBIGUOUS):
-        return replace(conclusion, verdict=Verdict.UNEXPLAINED)
-    return conclusion
+    """Withdraw names that sweeps which took no part do not bear out.
+
+    What is no more than common sensors drift needs no other explanation.
+    """
+    if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
+        return conclusion
+    remains = bool(_remaining(conclusion.before))
+    verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
+    return replace(conclusion, verdict=verdict)
 
 
 def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:

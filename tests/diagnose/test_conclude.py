@@ -2,12 +2,12 @@ from dataclasses import replace
 
 import pytest
 
-from gripperd.diagnose.conclude import Conclusion, Verdict, conclude
+from gripperd.diagnose.conclude import Conclusion, Verdict, conclude, not_confirmed
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.rivalry import Contest
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
-from tests.diagnose.small import MODEL, nothing, recording
+from tests.diagnose.small import MODEL, Hidden, nothing, recording, restless
 
 
 def _judged(told: Diagnosis, contest: Contest) -> Conclusion:
@@ -52,3 +52,16 @@ def test_a_name_is_kept_from_most_of_the_structure(
     concluded = _judged(told, replace(told.contest, best=poor, rivals=((),)))
     assert concluded.verdict is verdict
     assert concluded.signals == (Signal.FORCE,)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "verdict"),
+    [(nothing, Verdict.NONE), (restless(nothing), Verdict.UNEXPLAINED)],
+)
+def test_a_name_that_is_not_borne_out_leaves_what_there_was_without_it(
+    hidden: Hidden, verdict: Verdict
+) -> None:
+    bare = diagnose(recording(hidden), MODEL, {}, {})
+    without = conclude(bare.split.train, bare.found, bare.contest)
+    named = replace(without, verdict=Verdict.NAMED)
+    assert not_confirmed(named).verdict is verdict
