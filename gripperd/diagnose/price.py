@@ -1,7 +1,10 @@
 """The price of an addition: what a larger explanation must close to be believed."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from gripperd.diagnose.bending import bent, forms
 from gripperd.diagnose.candidates import Candidate, is_exact
 from gripperd.diagnose.crossing import bears_out
 from gripperd.diagnose.point import Point
@@ -13,21 +16,26 @@ from gripperd.model.effect import Signal
 PHANTOM = 0.06
 """An addition that closes less of the first gap than this repairs its shape, and is
 not an effect of its own: no library has the formula of nature. [-]"""
-COMPLETE = 0.01
-"""The same of an addition that leaves nothing but noise. [-]"""
+OWN = 0.5
+"""Share of a gain that no bending of the first effects takes, from which it is that of
+an effect of its own, be it ever so small. [-]"""
+MENDED = 0.1
+"""Share below which it mends a form, be it ever so large. [-]"""
+LEAST_OWN = 100.0
+"""Fall of chi² that bending leaves at least of a small effect of its own. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
 HALF = 0.4
 """Share of what is left, far above the noise, that an effect of its own takes. [-]"""
 EXACT = 0.25
-"""Share of :data:`PHANTOM` paid by what has but one form, as the first effect that
-leaves nothing to repair or as the one that could repair it. [-]"""
+"""Share of :data:`PHANTOM` paid by what has but one form, as the effects before that
+leave nothing to repair or as the one that could repair them. [-]"""
 LEAST_MORE = 25.0
 """Gain below which a further effect is not believed: the first one was fitted with a
 form of ours. [nat]"""
 SEEN = 0.006
-"""Change of a reading, of full scale, that a further effect makes at least in a sweep:
-common sensors drift by a third of it. [-]"""
+"""Change of a reading, of full scale, that an effect makes at least in a sweep: common
+sensors drift by a third of it. [-]"""
 
 
 def worth(
@@ -50,8 +58,10 @@ def worth(
         Gain that noise alone seldom reaches. [nat]
     """
     gain = larger.evidence - best.evidence
-    if not best.candidates or gain <= threshold:
-        return gain > threshold
+    if gain <= threshold:
+        return False
+    if not best.candidates:
+        return _size(problem, larger) >= SEEN
     new = [one for one in larger.candidates if one.name not in best.names]
     signals = {signal for one in new for signal in acts_on(problem, one)}
     hot = problem.temperature(signals) > 1
@@ -64,16 +74,30 @@ def worth(
     gained = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
     signals |= {s for s, gain in gained.items() if gain > ELSEWHERE * further}
     closed = sum(null.fit.misfits[s] - larger.fit.misfits[s] for s in signals)
-    noise = (2 * larger.fit.samples) ** 0.5
-    complete = not hot and larger.excess < noise
-    price = COMPLETE if complete else PHANTOM
-    for group in (best.candidates[:1], new):
-        price *= EXACT if group and all(is_exact(one) for one in group) else 1.0
+    price = PHANTOM
+    old = [one for one in best.candidates if acts_on(problem, one) & signals]
+    for group in (old, new):
+        price *= EXACT if all(is_exact(one) for one in group) else 1.0
+    paid = further > price * closed
+    if not hot:
+        return _stands_alone(problem, best, larger, paid=paid)
     # Far above the noise it counts what an addition takes of what was left.
-    halves = hot and further > HALF * sum(best.fit.misfits[s] for s in signals)
-    if not halves and further <= price * closed:
-        return False
-    return not hot or bears_out(problem, best.fit, larger.fit, signals)
+    halves = further > HALF * sum(best.fit.misfits[s] for s in signals)
+    return (paid or halves) and bears_out(problem, best.fit, larger.fit, signals)
+
+
+def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:
+    """Whether an addition mends no form before it: what it closes stays closed.
+
+    One that has not paid its price must keep most of that, and leave but noise.
+    """
+    further = best.fit.cost - larger.fit.cost
+    before, after = (bent(problem, one, forms(best)) for one in (best, larger))
+    own = before - after
+    if paid:
+        return own > MENDED * further
+    noise = (2 * larger.fit.samples) ** 0.5
+    return own > max(LEAST_OWN, OWN * further) and after - larger.fit.samples < noise
 
 
 def _change(problem: Problem, one: Point, other: Point) -> float:
@@ -82,6 +106,22 @@ def _change(problem: Problem, one: Point, other: Point) -> float:
     return max(
         float(np.percentile(np.abs(a - b), 95)) / problem.full_scale[block.signal]
         for block, a, b in zip(problem.blocks, *expected, strict=True)
+    )
+
+
+def _size(problem: Problem, rival: Rival) -> float:
+    """How much an explanation's effects change most, of full scale; inf of constants.
+
+    Everything else is left as it is.
+    """
+    point = rival.fit.point
+    if not point.effects:
+        return np.inf
+    bare = replace(point, effects=())
+    there, here = (problem.expected(problem.explanation(p)) for p in (point, bare))
+    return max(
+        float(np.max(np.abs(a - b))) / problem.full_scale[block.signal]
+        for block, a, b in zip(problem.blocks, there, here, strict=True)
     )
 
 

@@ -4,22 +4,33 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.price import acts_on, worth
 from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.rival import Rival, added
+from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.temperature import louder
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.fitted import fitted
-from tests.diagnose.small import MODEL, altered, moments, pinned, recording, rubbing
+from tests.diagnose.small import (
+    MODEL,
+    Hidden,
+    Moment,
+    altered,
+    moments,
+    pinned,
+    recording,
+    restless,
+    rubbing,
+    threshold,
+)
 
 
 @pytest.mark.parametrize(
@@ -38,57 +49,84 @@ def test_a_candidate_acts_on_these_of_the_signals_explained(
     assert acts_on(blank, candidate) == signals
 
 
-def _rival(problem: Problem, *candidates: Candidate, misfit: float) -> Rival:
-    """Explained so well, as if it had been fitted."""
-    point = Point(np.zeros(len(problem.constants)))
-    for one in candidates:
-        point = added(point, one)
-    misfits = {Signal.PRESSURE: 300.0, Signal.FORCE: misfit}
-    size = len(problem.constants)
-    counts = dict.fromkeys(misfits, 300)
-    fit = Polished(point, 300.0 + misfit, misfits, counts, (), np.eye(size))
-    return Rival(candidates, fit)
+BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+GROWS = Candidate("pressure_friction", PressureFriction())
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+THRESHOLD = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
 
 
-@pytest.mark.parametrize(("newtons", "seen"), [(1.0, False), (15.0, True)])
-def test_a_further_effect_that_changes_no_reading_is_not_worth_its_price(
-    blank: Problem, newtons: float, *, seen: bool
+def _fits(told: Recording, *candidates: Candidate) -> tuple[Problem, list[Rival]]:
+    """The model alone, with one effect more, and so on."""
+    problem = problem_of(told, MODEL, {})
+    sets = (candidates[:count] for count in range(len(candidates) + 1))
+    return problem, [fitted(problem, *one) for one in sets]
+
+
+def _stretches_and_rubs(newtons: float) -> Hidden:
+    """60 kPa that do not pull, about 75 N, and so much dry friction."""
+    return lambda moment: threshold(60.0)(moment) + rubbing(newtons)(moment)
+
+
+@pytest.mark.parametrize(("newtons", "seen"), [(2.5, False), (8.0, True)])
+def test_an_effect_that_changes_no_reading_is_not_worth_its_price(
+    newtons: float, *, seen: bool
 ) -> None:
-    # Full scale is 1.3 kN, of which sensors drift 3 N.
-    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
-    bias = Candidate("force_sensor_bias", ForceSensorBias(bias=newtons))
-    null = _rival(blank, misfit=5000.0)
-    best = _rival(blank, rub, misfit=2000.0)
-    larger = _rival(blank, rub, bias, misfit=600.0)
-    assert worth(blank, null, best, larger, 20.0) is seen
-    # As the first effect it has to beat the noise, nothing else.
-    assert worth(blank, null, null, _rival(blank, bias, misfit=600.0), 20.0)
+    # Full scale is 1.3 kN, of which sensors drift 3 N; these are quiet.
+    told = recording(_stretches_and_rubs(newtons), noise=0.1)
+    problem, (null, best, larger) = _fits(told, THRESHOLD, RUB)
+    assert larger.evidence - best.evidence > 100.0
+    assert worth(problem, null, best, larger, 20.0) is seen
+    # So is a first one.
+    problem, (null, best) = _fits(recording(rubbing(newtons), noise=0.1), RUB)
+    assert best.evidence - null.evidence > 100.0
+    assert worth(problem, null, null, best, 20.0) is seen
 
 
-@pytest.mark.parametrize(("misfit", "worth_it"), [(1850.0, False), (1600.0, True)])
-def test_what_closes_little_of_the_first_gap_repairs_a_shape(
-    blank: Problem, misfit: float, *, worth_it: bool
+def _rubs_more(growth: float) -> Hidden:
+    """Dry friction of 120 N whose law is not ours: so much more at full pressure."""
+
+    def lost(moment: Moment) -> Array:
+        slides = np.ptp(moment.contraction) > 0
+        grown = 1 + growth * moment.pressure / 500e3
+        return rubbing(120.0)(moment) * slides * grown
+
+    return lost
+
+
+@pytest.mark.parametrize(
+    ("hidden", "first", "further", "worth_it"),
+    [
+        (_stretches_and_rubs(7.0), THRESHOLD, RUB, True),
+        (_rubs_more(0.3), RUB, GROWS, False),
+    ],
+)
+def test_what_closes_little_must_not_be_what_bends_the_first(
+    hidden: Hidden, first: Candidate, further: Candidate, *, worth_it: bool
 ) -> None:
-    # A further effect of some form must close 6 % of 3000 and more.
-    creep = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
-    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
-    null = _rival(blank, misfit=5000.0)
-    best = _rival(blank, creep, misfit=2000.0)
-    larger = _rival(blank, creep, rub, misfit=misfit)
-    assert worth(blank, null, best, larger, 20.0) is worth_it
+    """Each closes about a hundredth of the first gap, far above the noise."""
+    problem, (null, best, larger) = _fits(recording(hidden), first, further)
+    assert larger.evidence - best.evidence > 100.0
+    assert best.fit.cost - larger.fit.cost < 0.015 * (null.fit.cost - best.fit.cost)
+    assert larger.excess < (2 * larger.fit.samples) ** 0.5
+    assert worth(problem, null, best, larger, 20.0) is worth_it
 
 
-@pytest.mark.parametrize(("left", "worth_it"), [(320.0, True), (520.0, False)])
-def test_what_leaves_but_noise_is_an_effect_of_its_own_though_it_closes_little(
-    blank: Problem, left: float, *, worth_it: bool
+def test_what_but_bends_the_first_may_close_as_much_as_it_will() -> None:
+    problem, (null, best, larger) = _fits(recording(_rubs_more(6.0)), RUB, GROWS)
+    closed = null.fit.cost - larger.fit.cost
+    assert best.fit.cost - larger.fit.cost > 0.06 * closed
+    assert not worth(problem, null, best, larger, 20.0)
+
+
+@pytest.mark.parametrize(("newtons", "worth_it"), [(7.0, False), (20.0, True)])
+def test_what_leaves_more_than_noise_must_close_more(
+    newtons: float, *, worth_it: bool
 ) -> None:
-    # 80 of 4700 are 1.7 %; 600 samples of noise have a misfit of 600 +- 35.
-    creep = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
-    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
-    null = _rival(blank, misfit=5000.0)
-    best = _rival(blank, creep, misfit=left + 80.0)
-    larger = _rival(blank, creep, rub, misfit=left)
-    assert worth(blank, null, best, larger, 20.0) is worth_it
+    told = recording(restless(_stretches_and_rubs(newtons)))
+    problem, (null, best, larger) = _fits(told, THRESHOLD, RUB)
+    assert larger.evidence - best.evidence > 40.0
+    assert larger.excess > 10 * (2 * larger.fit.samples) ** 0.5
+    assert worth(problem, null, best, larger, 20.0) is worth_it
 
 
 @pytest.mark.parametrize(("apart", "worth_it"), [(0.0, True), (35.0, False)])
@@ -106,9 +144,7 @@ def test_far_above_the_noise_an_addition_must_foretell_the_sweeps_it_never_saw(
         told = altered(told, [name], "force", _off_by(zero))
     problem = pinned(problem_of(told, MODEL, {}), "muscle.diameter")
     problem = louder(problem, {Signal.FORCE: 5.0, Signal.PRESSURE: 1.0})
-    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
-    bias = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
-    null, best, larger = (fitted(problem, *one) for one in ((), (rub,), (rub, bias)))
+    null, best, larger = (fitted(problem, *one) for one in ((), (RUB,), (RUB, BIAS)))
     assert larger.evidence - best.evidence > 30.0
     assert worth(problem, null, best, larger, 20.0) is worth_it
 
