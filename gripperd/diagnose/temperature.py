@@ -55,3 +55,13 @@ def plain(problem: Problem) -> Problem:
         for signal, noise in problem.noises.items()
     }
     return replace(problem, noises=noises)
+
+
+def cooled(problem: Problem, fit: Polished) -> Problem:
+    """Give the problem with noise no louder than what an explanation leaves."""
+    shares = {
+        signal: min(max(share, 1 / problem.temperatures[signal]), 1.0)
+        for signal, share in temperatures_of(fit).items()
+    }
+    cooler = {s: problem.temperatures[s] * share for s, share in shares.items()}
+    return replace(louder(problem, shares), temperatures=MappingProxyType(cooler))
