@@ -18,7 +18,7 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose import small, stepped
 from tests.diagnose.small import Hidden, Moment, pinned, restless, threshold
-from tests.diagnose.stepped import OPEN, creeping, missed
+from tests.diagnose.stepped import DWELL, OPEN, creeping, missed
 
 LEVELS = (
     Candidate("threshold_pressure", ThresholdPressure(pressure=20e3)),
@@ -76,6 +76,24 @@ def test_what_explains_but_levels_is_not_told(hidden: tuple[Hidden, ...]) -> Non
     after, told = _told(found, best)
     assert told is best
     assert after is found
+
+
+def _slipping(moment: Moment) -> Array:
+    """After each command the force slips for seconds, either way, by 15 N or so."""
+    random = np.random.default_rng(int(moment.time[0]))
+    since = moment.time - moment.time[0]
+    slips = random.normal(0.0, 15.0, 4)[(since // DWELL).astype(int)]
+    return np.asarray(slips * np.log10(1 + since % DWELL))
+
+
+def test_what_is_creep_in_part_is_not_told() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02), _slipping)
+    assert _told(found, best) == (found, best)
+
+
+def test_faint_creep_is_not_told() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.01), listed=LEVELS[1:])
+    assert _told(found, best) == (found, best)
 
 
 def test_what_takes_most_of_the_levels_is_told_with_it() -> None:
