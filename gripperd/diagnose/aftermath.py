@@ -115,8 +115,11 @@ def _goes_on(problem: Problem, here: Rival, larger: Rival) -> bool:
 
 
 def _takes_its_share(problem: Problem, here: Rival, larger: Rival) -> bool:
-    """Whether an effect takes most of what is left of the force."""
-    before, after = (one.fit.misfits[Signal.FORCE] for one in (here, larger))
+    """Whether an effect takes much of what is left of the force beside the dwells."""
+    before, after = (
+        one.fit.misfits[Signal.FORCE] - misfit(problem, one.fit.point)
+        for one in (here, larger)
+    )
     halves = before - after > HALF * before
     return halves and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
 
