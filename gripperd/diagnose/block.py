@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from gripperd.diagnose.course import Course
 from gripperd.diagnose.fault import Mask
+from gripperd.diagnose.noise import Noise
 from gripperd.model.effect import Signal
 
 
@@ -14,6 +15,8 @@ class Block(NamedTuple):
     signal: Signal
     good: Mask
     """Samples to explain, shape ``(n,)``."""
+    noise: Noise | None = None
+    """Its own; none for that of the signal. [SI]"""
 
 
 class Group(NamedTuple):

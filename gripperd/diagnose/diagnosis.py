@@ -7,6 +7,7 @@ from typing import TypeAlias
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from gripperd.diagnose.aftermath import with_aftermath
 from gripperd.diagnose.agreement import beyond_use
 from gripperd.diagnose.believed import believed
 from gripperd.diagnose.candidates import candidates
@@ -165,6 +166,7 @@ def _diagnosed(
         best = with_other_length(train, best, listed, rng)
     best = with_overstepped(found, best, listed)
     best = with_usual_tolerances(found, best)
+    found, best = with_aftermath(found, best, listed, train.noises)
     progress("verdict", 0.9)
     return _told(recording, parts, found, best, untested, seed)
 

@@ -83,7 +83,7 @@ def _title(one: Rival, other: Rival) -> str:
 
 def _separation(problem: Problem, sweep: Sweep, one: Rival, other: Rival) -> float:
     """Rise of the misfit of either rival if the other is true, after refitting."""
-    planned = replace(problem, courses=(_course(problem, sweep),), kept=())
+    planned = replace(problem, courses=(_course(problem, sweep),), kept=(), dwells=())
     if not planned.blocks:
         return 0.0
     a = planned.expected(planned.explanation(one.fit.point))

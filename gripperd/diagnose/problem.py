@@ -38,10 +38,12 @@ class Problem:
     """How much louder noises are taken than they were measured, in squares. [-]"""
     kept: tuple[Mask, ...] = ()
     """Samples of each course that take part; all when empty."""
+    dwells: tuple[Block, ...] = ()
+    """Stretches that are judged once more, each about a level of its own."""
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
-        """Every signal of every sweep that has samples to explain."""
+        """Every signal of every sweep that has samples to explain, then the dwells."""
         found = []
         for index, course in enumerate(self.courses):
             for signal in predictable(course):
@@ -54,7 +56,7 @@ class Problem:
                     good &= self.kept[index]
                 if good.sum() >= 4:
                     found.append(Block(index, signal, good))
-        return tuple(found)
+        return (*found, *self.dwells)
 
     def _has_part(self, signal: Signal) -> bool:
         if signal is Signal.PRESSURE:
@@ -134,7 +136,8 @@ class Problem:
         """Sweeps that explain the same signals, to be predicted at once."""
         shown: dict[int, tuple[Signal, ...]] = {}
         for block in self.blocks:
-            shown[block.course] = (*shown.get(block.course, ()), block.signal)
+            known = (*shown.get(block.course, ()), block.signal)
+            shown[block.course] = tuple(dict.fromkeys(known))
         places: dict[tuple[Signal, ...], list[int]] = {}
         for place, signals in shown.items():
             places.setdefault(signals, []).append(place)
@@ -181,7 +184,7 @@ class Problem:
     def _laws(self) -> list[tuple[Array, Array]]:
         """Steps and law of the noise block by block."""
         return [
-            law_of(time, self.noises[block.signal])
+            law_of(time, block.noise or self.noises[block.signal])
             for block, time in zip(self.blocks, self.times, strict=True)
         ]
 

@@ -122,7 +122,7 @@ def _challengers(
     """Give the best without a candidate, and with each of its strongest rivals."""
     own = best.candidates[index]
     rest = (*best.candidates[:index], *best.candidates[index + 1 :])
-    without = Rival(rest, polished(problem, _removed(problem, best.fit.point, own)))
+    without = Rival(rest, polished(problem, removed(problem, best.fit.point, own)))
     base = without.fit.point
     taken = set(best.names)
     around = design(problem, base, [one for one in listed if one.name not in taken])
@@ -142,7 +142,8 @@ def _challengers(
     ]
 
 
-def _removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
+def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
+    """Take a candidate out at a point."""
     if candidate.effect is not None:
         return point.without(candidate.name)
     assert candidate.constant is not None

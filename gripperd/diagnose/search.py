@@ -23,7 +23,7 @@ from gripperd.diagnose.preference import BORE, at_edge, preferred
 from gripperd.diagnose.price import worth
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
-from gripperd.diagnose.temperature import cooled, louder, plain, temperatures_of
+from gripperd.diagnose.temperature import louder, plain, reached, temperatures_of
 
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
@@ -75,7 +75,7 @@ def _cooled(
     warm = {s: max(1.0, share) for s, share in temperatures_of(null).items()}
     found = _pass(louder(problem, warm), listed, rng, null.point)
     for _ in range(COOLINGS):
-        cooler = cooled(warm, (rival.fit for rival in found.rivals))
+        cooler = reached(warm, (rival.fit for rival in found.rivals))
         if all(cooler[s] > 0.8 * warm[s] for s in warm):
             break
         warm = cooler

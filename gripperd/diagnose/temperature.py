@@ -31,7 +31,7 @@ def coolest(fits: Iterable[Polished]) -> dict[Signal, float]:
     return found
 
 
-def cooled(
+def reached(
     warm: Mapping[Signal, float], fits: Iterable[Polished]
 ) -> dict[Signal, float]:
     """How loud noises that were taken so warm turn out, by the best of some fits."""
@@ -65,3 +65,11 @@ def plain(problem: Problem, signals: Collection[Signal]) -> Problem:
         for signal, noise in problem.noises.items()
     }
     return replace(problem, noises=noises)
+
+
+def cooled(problem: Problem, fit: Polished) -> Problem:
+    """Give the problem with noise no louder than what an explanation leaves."""
+    warm = problem.temperatures
+    cooler = {s: min(found, warm[s]) for s, found in reached(warm, [fit]).items()}
+    shares = {signal: found / warm[signal] for signal, found in cooler.items()}
+    return replace(louder(problem, shares), temperatures=MappingProxyType(cooler))

@@ -1,4 +1,5 @@
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,3 +125,13 @@ def test_what_no_sweep_tells_apart_is_left_to_a_reference() -> None:
     assert found.kind is None
     assert (found.plan, found.separation) == ({}, 0.0)
     assert "reference" in found.why
+
+
+def test_dwells_of_the_past_are_no_part_of_what_is_planned() -> None:
+    problem = _problem(rubbing(10.0))
+    rivals = (
+        _rival(problem, CoulombFriction(magnitude=10.0)),
+        _rival(problem, PreslidingHysteresis(near=10.0)),
+    )
+    dwelt = replace(problem, dwells=problem.blocks[:1])
+    assert proposal(dwelt, *rivals) == proposal(problem, *rivals)

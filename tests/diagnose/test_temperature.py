@@ -3,16 +3,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.temperature import cooled, plain
+from gripperd.diagnose.temperature import cooled, louder, plain, reached
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from tests.diagnose.fitted import fitted
 from tests.diagnose.searched import LISTED, OPEN
-from tests.diagnose.small import MODEL, altered, moments, nothing, pinned, recording
+from tests.diagnose.small import (
+    FORCE_NOISE,
+    MODEL,
+    altered,
+    moments,
+    nothing,
+    pinned,
+    recording,
+)
 
 
 def _fit(blank: Problem, **shares: float) -> Polished:
@@ -31,7 +41,7 @@ def test_a_noise_taken_twice_as_loud_turns_out_as_the_best_fit_leaves_it(
 ) -> None:
     # Up to 1.3 of the true noise is reached by the noise alone.
     fits = [_fit(blank, force=share), _fit(blank, force=4.0)]
-    found = cooled({Signal.FORCE: 2.0}, fits)
+    found = reached({Signal.FORCE: 2.0}, fits)
     assert found == {Signal.FORCE: pytest.approx(loudness)}
 
 
@@ -60,3 +70,34 @@ def test_a_stage_far_from_its_model_leaves_the_noise_of_the_others_as_it_was() -
     assert found.problem.temperatures[Signal.PRESSURE] > 2.0
     assert found.problem.noises[Signal.FORCE] == problem.noises[Signal.FORCE]
     assert found.best.names == ()
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    """Nothing is hidden, and the force has white noise of 3 N."""
+    known = pinned(problem_of(recording(nothing), MODEL, {}), "muscle.diameter")
+    white = {s: Noise(one.std, 0.0, 1e-3) for s, one in known.noises.items()}
+    return replace(known, noises={**white, Signal.FORCE: Noise(FORCE_NOISE, 0.0)})
+
+
+def test_what_an_explanation_reaches_is_no_louder_than_it_leaves(
+    problem: Problem,
+) -> None:
+    hot = louder(problem, {Signal.FORCE: 100.0, Signal.PRESSURE: 1.0})
+    cool = cooled(hot, fitted(hot).fit)
+    assert cool.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.1)
+    assert cool.temperatures[Signal.FORCE] == pytest.approx(1.0, abs=0.2)
+
+
+def test_cooling_goes_no_further_than_the_noise(problem: Problem) -> None:
+    still = replace(problem, noises={**problem.noises, Signal.FORCE: Noise(30.0, 0.0)})
+    hot = louder(still, {Signal.FORCE: 4.0, Signal.PRESSURE: 1.0})
+    cool = cooled(hot, fitted(hot).fit)
+    assert cool.noises[Signal.FORCE].std == pytest.approx(30.0)
+    assert cool.temperatures[Signal.FORCE] == pytest.approx(1.0)
+
+
+def test_cooling_never_heats(problem: Problem) -> None:
+    quiet = replace(problem, noises={**problem.noises, Signal.FORCE: Noise(0.3, 0.0)})
+    same = louder(quiet, {Signal.FORCE: 2.0, Signal.PRESSURE: 1.0})
+    assert cooled(same, fitted(same).fit).temperatures[Signal.FORCE] == 2.0

@@ -6,11 +6,13 @@ for the map of the DMSP-20; bore with saturating rubber for the 10 mm muscle.
 """
 
 import os
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from math import radians, sin, tan
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gripperd.config import load_model
@@ -162,7 +164,55 @@ def test_steps_show_a_transducer_that_reads_less_than_nothing_at_vent() -> None:
     assert gap.after < 4.0
 
 
-def test_steps_show_creep_and_a_slow_valve() -> None:
+def test_steps_show_creep() -> None:
     found = _diagnosis("pam10_steps", "pam10")
     assert found.verdict in SETTLED, _said(found)
-    assert {"creep", "valve_lag"} <= set(_names(found)), _said(found)
+    assert "creep" in _names(found), _said(found)
+    # Without it 1.9 N are left on the run that took no part.
+    assert found.gaps[Signal.FORCE].after < 1.2
+
+
+def test_the_valve_of_the_steps_follows_as_regulators_do() -> None:
+    answers = {
+        vents: [
+            time for vent, time in _answers(_recording("pam10_steps")) if vent == vents
+        ]
+        for vents in (False, True)
+    }
+    assert (len(answers[False]), len(answers[True])) == (14, 4)
+    # 10 to 60 ms any regulator takes, and that the model allows: no effect is missing.
+    assert 0.01 < np.median(answers[False]) < 0.06
+    assert max(answers[False]) < 0.07
+    # Only down to nothing is it slower, once a run; no lag of the library is so there
+    # and not elsewhere.
+    assert min(answers[True]) > 0.07
+    found = _diagnosis("pam10_steps", "pam10")
+    assert "valve_lag" not in _names(found), _said(found)
+    paths = [constant.path for constant in found.found.problem.constants]
+    response = found.explained.shifts[paths.index("response.valve")]
+    # In sigma of 20 ms about 20 ms.
+    assert -0.5 < response < 2.0
+
+
+def _answers(recording: Recording) -> Iterator[tuple[bool, float]]:
+    """Time from the row that tells a command to 63 % of the way, and whether it vents.
+
+    The way goes from the mean before to where the pressure stays 2 to 3 s later. [s]
+    """
+    for run in recording.runs:
+        time, current, pressure = (
+            run.columns[name] for name in ("time", "current", "pressure")
+        )
+        rows = np.flatnonzero(np.abs(np.diff(current)) > 5e-5) + 1
+        first = rows[np.diff(time[rows], prepend=-np.inf) > 0.5]
+        for row in first:
+            since = time - time[row]
+            start = pressure[max(row - 15, 0) : row].mean()
+            way = pressure[(since > 2.0) & (since < 3.0)].mean() - start
+            if abs(way) < 15e3:
+                continue
+            share = (pressure - start) / way
+            after = row + int(np.argmax(share[row:] >= 0.63))
+            places = slice(after - 1, after + 1)
+            reached = float(np.interp(0.63, share[places], since[places]))
+            yield bool(start + way < 20e3), reached

@@ -1,0 +1,118 @@
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.dwell import drifted, dwelling, misfit
+from gripperd.diagnose.noise import Noise
+from gripperd.diagnose.point import Point
+from gripperd.diagnose.problem import Problem
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose import stepped
+from tests.diagnose.small import Moment, nothing
+from tests.diagnose.stepped import DWELL, LENGTHS, PRESSURES, STEP, missed
+
+START = Point(np.zeros(len(stepped.OPEN)))
+IDENTIFIED = Noise(3.0, 0.0, 0.5, 20.0)
+LEVEL = 20.0
+"""Of the misfit. [N]"""
+
+
+def _hot(hidden: Callable[[Moment], Array] = nothing) -> Problem:
+    plain = stepped.problem(hidden)
+    return replace(plain, noises={**plain.noises, Signal.FORCE: Noise(LEVEL, 0.0)})
+
+
+def _with(problem: Problem, change: Callable[[Array], Array]) -> Problem:
+    """The same, were the force of each dwell other by a function of its time."""
+    courses = list(problem.courses)
+    for block in problem.dwells:
+        course = courses[block.course]
+        force = course.measured["force"].copy()
+        time = course.time[block.good]
+        force[block.good] += change(time - time[0])
+        courses[block.course] = replace(
+            course, measured={**course.measured, "force": force}
+        )
+    return replace(problem, courses=tuple(courses))
+
+
+def test_a_dwell_lasts_from_a_second_after_a_command_to_the_next() -> None:
+    problem = dwelling(_hot(), START, IDENTIFIED)
+    runs = len(LENGTHS) * len(PRESSURES)
+    # Before its first command a run has been at rest for nobody knows how long.
+    assert len(problem.dwells) == runs * (len(PRESSURES[0]) - 1)
+    for number, block in enumerate(problem.dwells):
+        course = problem.courses[block.course]
+        since = course.time[block.good] - course.time[0]
+        begin = DWELL * (1 + number % 3)
+        assert since[0] == pytest.approx(begin + 1.0, abs=1.5 * STEP)
+        assert since[-1] == pytest.approx(begin + DWELL, abs=3.5 * STEP)
+
+
+def test_four_dwells_are_too_few() -> None:
+    hot = _hot()
+    once = replace(hot, kept=tuple(
+        (np.arange(len(c)) < 1.6 * DWELL / STEP) & (i < 4)
+        for i, c in enumerate(hot.courses)
+    ))  # fmt: skip
+    assert dwelling(once, START, IDENTIFIED) is once
+
+
+def test_the_level_of_a_dwell_costs_little_and_its_drift_much() -> None:
+    problem = dwelling(_hot(), START, IDENTIFIED)
+    count = len(problem.dwells)
+    base = misfit(problem, START)
+    levelled = misfit(_with(problem, lambda t: 0.0 * t + LEVEL), START)
+    drifting = misfit(_with(problem, lambda t: LEVEL * t / DWELL), START)
+    # One sigma of the level each.
+    assert levelled - base == pytest.approx(count, rel=0.5)
+    assert drifting - base > 20 * count
+
+
+def test_dwells_are_as_loud_as_what_no_creep_explains() -> None:
+    quiet = dwelling(_hot(), START, IDENTIFIED).dwells[0].noise
+    shaking = _hot(lambda m: 9.0 * np.sin(40.0 * m.time))
+    loud = dwelling(shaking, START, IDENTIFIED).dwells[0].noise
+    crept = dwelling(_hot(stepped.creeping(0.05)), START, IDENTIFIED).dwells[0].noise
+    assert quiet is not None
+    assert loud is not None
+    assert crept is not None
+    assert quiet.std == pytest.approx(3.0, rel=0.1)
+    # A sine of 9 N beside noise of 3 N: (9² / 2 + 3²)^½.
+    assert loud.std == pytest.approx(7.0, rel=0.15)
+    assert crept.std == pytest.approx(quiet.std, rel=0.05)
+
+
+def test_the_noise_of_a_dwell_wanders_as_it_was_identified() -> None:
+    (first, *_) = dwelling(_hot(), START, IDENTIFIED).dwells
+    assert first.noise is not None
+    assert first.noise.drift == LEVEL
+    # Variance of the change over one second.
+    apart = [
+        2 * law.drift**2 * (1 - np.exp(-1.0 / law.memory))
+        for law in (IDENTIFIED, first.noise)
+    ]
+    louder = (first.noise.std / IDENTIFIED.std) ** 2
+    assert apart[1] == pytest.approx(louder * apart[0], rel=0.05)
+
+
+def test_a_drift_is_told_from_a_level() -> None:
+    problem = dwelling(_hot(), START, IDENTIFIED)
+    base = drifted(problem, START)
+    assert drifted(_with(problem, lambda t: 0.0 * t + 50.0), START) == pytest.approx(
+        base
+    )
+    slope = 4.0
+    drifting = drifted(_with(problem, lambda t: slope * t), START)
+    samples = sum(int(block.good.sum()) for block in problem.dwells)
+    # The variance of a line of 4 N/s over the 7 s of a dwell.
+    assert drifting - base == pytest.approx(samples * (slope * 7.0) ** 2 / 12, rel=0.1)
+
+
+def test_misfit_is_all_levels_here() -> None:
+    problem = dwelling(_hot(missed), START, IDENTIFIED)
+    samples = sum(int(block.good.sum()) for block in problem.dwells)
+    assert misfit(problem, START) == pytest.approx(samples, rel=0.1)
