@@ -80,14 +80,20 @@ def unusable() -> Conclusion:
     return Conclusion(Verdict.UNUSABLE, (), 0.0)
 
 
-def not_confirmed(conclusion: Conclusion) -> Conclusion:
+def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
     """Withdraw names that sweeps which took no part do not bear out.
 
-    What is no more than common sensors drift needs no other explanation.
+    Parameters
+    ----------
+    conclusion
+        With names.
+    is_open
+        Whether these sweeps are off by more than noise without any name. Where they
+        are not, and no structure is seen either, sensors drift and nothing is missing.
     """
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         return conclusion
-    remains = bool(_remaining(conclusion.before))
+    remains = is_open or bool(_remaining(conclusion.before))
     verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
     return replace(conclusion, verdict=verdict)
 

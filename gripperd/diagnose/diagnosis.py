@@ -199,8 +199,10 @@ def _told(
     main = _main(best, judged)
     # That tolerances are too tight is one finding, however many constants it moves.
     effects = 1 if nearest.looser else len(entries)
-    if slip or (main is not None and not judged[main].confirms(effects)):
-        conclusion = not_confirmed(conclusion)
+    gap = judged[main] if main else None
+    if slip or (gap and not gap.confirms(effects)):
+        is_open = gap is not None and gap.is_open
+        conclusion = not_confirmed(conclusion, is_open=is_open)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
         points = (start, base, base)

@@ -53,6 +53,11 @@ class Gap:
         left = self.recalibrated**2 - floor
         return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
 
+    @property
+    def is_open(self) -> bool:
+        """Whether better constants alone leave more than noise."""
+        return self.recalibrated > REACHED * self.noise_floor
+
     def confirms(self, effects: int) -> bool:
         """Whether what took no part bears so many effects out.
 

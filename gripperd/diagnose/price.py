@@ -1,5 +1,6 @@
 """The price of an addition: what a larger explanation must close to be believed."""
 
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -36,6 +37,9 @@ form of ours. [nat]"""
 SEEN = 0.006
 """Change of a reading, of full scale, that an effect makes at least in a sweep: common
 sensors drift by a third of it. [-]"""
+RAMP = 0.01
+"""The same of a drift in proportion to time: what wanders by 0.2 % (sd) may end root 12
+times that from where it began, and constants take a part of it. [-]"""
 
 
 def worth(
@@ -58,10 +62,10 @@ def worth(
         Gain that noise alone seldom reaches. [nat]
     """
     gain = larger.evidence - best.evidence
-    if gain <= threshold:
+    if gain <= threshold or not _is_fault(problem, larger):
         return False
     if not best.candidates:
-        return _size(problem, larger) >= SEEN
+        return _size(problem, larger, larger.names, problem.signals) >= SEEN
     new = [one for one in larger.candidates if one.name not in best.names]
     signals = {signal for one in new for signal in acts_on(problem, one)}
     hot = problem.temperature(signals) > 1
@@ -109,19 +113,30 @@ def _change(problem: Problem, one: Point, other: Point) -> float:
     )
 
 
-def _size(problem: Problem, rival: Rival) -> float:
-    """How much an explanation's effects change most, of full scale; inf of constants.
+def _is_fault(problem: Problem, rival: Rival) -> bool:
+    """Whether a drift, if there is one, is more than that of a sound sensor."""
+    if "force_sensor_drift" not in rival.names:
+        return True
+    return _size(problem, rival, ["force_sensor_drift"], [Signal.FORCE]) >= RAMP
 
-    Everything else is left as it is.
+
+def _size(
+    problem: Problem, rival: Rival, names: Sequence[str], signals: Collection[Signal]
+) -> float:
+    """How much some effects change most in some signals, of full scale.
+
+    Everything else is left as it is. Of constants it is infinite.
     """
     point = rival.fit.point
-    if not point.effects:
+    others = tuple(one for one in point.effects if one.name not in names)
+    if others == point.effects:
         return np.inf
-    bare = replace(point, effects=())
+    bare = replace(point, effects=others)
     there, here = (problem.expected(problem.explanation(p)) for p in (point, bare))
     return max(
         float(np.max(np.abs(a - b))) / problem.full_scale[block.signal]
         for block, a, b in zip(problem.blocks, there, here, strict=True)
+        if block.signal in signals
     )
 
 

@@ -64,4 +64,5 @@ def test_a_name_that_is_not_borne_out_leaves_what_there_was_without_it(
     bare = diagnose(recording(hidden), MODEL, {}, {})
     without = conclude(bare.split.train, bare.found, bare.contest)
     named = replace(without, verdict=Verdict.NAMED)
-    assert not_confirmed(named).verdict is verdict
+    assert not_confirmed(named, is_open=False).verdict is verdict
+    assert not_confirmed(named, is_open=True).verdict is Verdict.UNEXPLAINED

@@ -63,6 +63,13 @@ def test_effects_are_confirmed_by_what_they_close_of_a_gap(
     assert gap.confirms(2) is confirms
 
 
+@pytest.mark.parametrize(("recalibrated", "is_open"), [(3.8, False), (4.0, True)])
+def test_a_gap_is_open_from_thirteen_tenths_of_the_noise(
+    recalibrated: float, *, is_open: bool
+) -> None:
+    assert _gap(recalibrated, 3.0).is_open is is_open
+
+
 def test_the_gap_is_the_root_mean_square_of_what_was_left_out(
     judged: tuple[Problem, dict[Signal, Gap]],
 ) -> None:

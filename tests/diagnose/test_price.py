@@ -12,6 +12,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.temperature import louder
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
 from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.threshold_pressure import ThresholdPressure
@@ -50,6 +51,7 @@ def test_a_candidate_acts_on_these_of_the_signals_explained(
 
 
 BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+DRIFT = Candidate("force_sensor_drift", ForceSensorDrift(rate=0.01))
 GROWS = Candidate("pressure_friction", PressureFriction())
 RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
 THRESHOLD = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
@@ -80,6 +82,17 @@ def test_an_effect_that_changes_no_reading_is_not_worth_its_price(
     problem, (null, best) = _fits(recording(rubbing(newtons), noise=0.1), RUB)
     assert best.evidence - null.evidence > 100.0
     assert worth(problem, null, null, best, 20.0) is seen
+
+
+@pytest.mark.parametrize(("newtons", "worth_it"), [(10.0, False), (20.0, True)])
+def test_a_ramp_that_a_sound_sensor_may_drift_is_no_fault(
+    newtons: float, *, worth_it: bool
+) -> None:
+    # Sensors drift by 0.2 % (sd) of 1.3 kN; a ramp of that sd ends 9 N away.
+    told = recording(lambda m: newtons * m.time / 690.0, noise=0.1)
+    problem, (null, best) = _fits(told, DRIFT)
+    assert best.evidence - null.evidence > 100.0
+    assert worth(problem, null, null, best, 20.0) is worth_it
 
 
 def _rubs_more(growth: float) -> Hidden:
