@@ -17,9 +17,12 @@ from gripperd.model.track import Array, Track
 
 @dataclass(frozen=True, slots=True)
 class ValveLag(InValve):
-    r"""First-order lag with its own time constants for filling and exhaust.
+    r"""Two lags in a row, of muscle and tube, that fill and exhaust at their own pace.
 
-    .. math:: p = p_0 + a (p_l - p_0), \quad \tau \dot p_l = p_0 - p_l
+    .. math:: p = p_0 + a (p_l - p_0), \quad \tau \dot p_m = p_0 - p_m, \quad
+              k \tau \dot p_l = p_m - p_l
+
+    A tube holds the pressure back for a while, as a dead time does.
     """
 
     name: ClassVar[str] = "valve_lag"
@@ -39,11 +42,18 @@ class ValveLag(InValve):
     exhaust: float = shape(unit=None, starts=(1.0, 2.0), low=0.2, high=5.0)
     """Time constant of exhaust over that of filling. [-]"""
 
+    tube: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
+    """Time constants of the second lag over those of the first. [-]"""
+
     def rest(self) -> Array:
-        """A lag that begins settled."""
-        return begin()
+        """Two lags that begin settled."""
+        return begin(2)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pressure that has come so far. [Pa]."""
-        late = lag(value, track.step, self.time, self.time * self.exhaust, memory)
+        late = value
+        for place, time in enumerate((self.time, self.tube * self.time)):
+            if time > 0:
+                state = memory[place : place + 1]
+                late = lag(late, track.step, time, time * self.exhaust, state)
         return value + self.share * (late - value)
