@@ -267,14 +267,18 @@ def _columns(recording: Recording) -> frozenset[str]:
 
 
 def _main(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
-    """The signal of the first effect, else the one recalibration leaves worst."""
-    for candidate in best.best.candidates:
-        effect = candidate.effect
-        if effect and effect.stage is not Stage.SENSOR and effect.signal in judged:
+    """The signal of the first effect, else the one recalibration leaves worst.
+
+    A sensor that errs shows in every stage that it touches, in one most. Without any
+    effect the story is about the force.
+    """
+    effects = [one.effect for one in best.best.candidates if one.effect]
+    for effect in effects:
+        if effect.stage is not Stage.SENSOR and effect.signal in judged:
             return effect.signal
-    if Signal.FORCE in judged:
+    if Signal.FORCE in judged and not effects:
         return Signal.FORCE
-    return max(judged, key=lambda one: judged[one].closed, default=None)
+    return max(judged, key=lambda one: judged[one].left_open, default=None)
 
 
 def _next(problem: Problem, best: Contest) -> Proposal | None:

@@ -54,9 +54,14 @@ class Gap:
         return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
 
     @property
+    def left_open(self) -> float:
+        """What better constants alone leave, over the noise floor. [-]."""
+        return self.recalibrated / self.noise_floor
+
+    @property
     def is_open(self) -> bool:
         """Whether better constants alone leave more than noise."""
-        return self.recalibrated > REACHED * self.noise_floor
+        return self.left_open > REACHED
 
     def confirms(self, effects: int) -> bool:
         """Whether what took no part bears so many effects out.

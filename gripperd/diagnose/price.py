@@ -23,7 +23,7 @@ an effect of its own, be it ever so small. [-]"""
 MENDED = 0.1
 """Share below which it mends a form, be it ever so large. [-]"""
 LEAST_OWN = 100.0
-"""Fall of chi² that bending leaves at least of a small effect of its own. [-]"""
+"""Fall of chi² that bending leaves at least of an effect of its own. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
 HALF = 0.4
@@ -34,9 +34,9 @@ leave nothing to repair or as the one that could repair them. [-]"""
 LEAST_MORE = 25.0
 """Gain below which a further effect is not believed: the first one was fitted with a
 form of ours. [nat]"""
-SEEN = 0.006
+SEEN = 0.005
 """Change of a reading, of full scale, that an effect makes at least in a sweep: common
-sensors drift by a third of it. [-]"""
+sensors drift by 0.2 %. [-]"""
 RAMP = 0.01
 """The same of a drift in proportion to time: what wanders by 0.2 % (sd) may end root 12
 times that from where it began, and constants take a part of it. [-]"""
@@ -96,12 +96,12 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     One that has not paid its price must keep most of that, and leave but noise.
     """
     further = best.fit.cost - larger.fit.cost
-    before, after = (bent(problem, one, forms(best)) for one in (best, larger))
-    own = before - after
-    if paid:
-        return own > MENDED * further
-    noise = (2 * larger.fit.samples) ** 0.5
-    return own > max(LEAST_OWN, OWN * further) and after - larger.fit.samples < noise
+    bending = forms(best)
+    before, after = (bent(problem, one, bending) for one in (best, larger))
+    least = LEAST_OWN if bending else 2 * LEAST_MORE
+    if before - after <= max(least, (MENDED if paid else OWN) * further):
+        return False
+    return paid or after - larger.fit.samples < (2 * larger.fit.samples) ** 0.5
 
 
 def _change(problem: Problem, one: Point, other: Point) -> float:

@@ -25,6 +25,7 @@ from tests.diagnose.small import (
     MODEL,
     Moment,
     altered,
+    moments,
     nothing,
     pinned,
     recording,
@@ -313,3 +314,13 @@ def test_friction_of_the_linkage_is_found_from_the_files_on(tmp_path: Path) -> N
     assert isinstance(effects, list)
     lost = told.named[0].parameters["pull_loss"]
     assert lost.value == pytest.approx(effects[0]["amount"] / 4, abs=4 * lost.std)
+
+
+def test_a_sensor_that_errs_is_judged_where_constants_leave_most() -> None:
+    told = altered(recording(nothing), moments(), "pressure", lambda read: 1.06 * read)
+    library = {name: EFFECTS[name] for name in ("pressure_sensor_gain",)}
+    found = diagnose(told, MODEL, {}, library)
+    assert [entry.name for entry in found.named] == ["pressure_sensor_gain"]
+    assert found.verdict is Verdict.NAMED
+    # Bore and angle take most of it from the force, and nothing from the pressure.
+    assert found.main is Signal.PRESSURE
