@@ -42,6 +42,8 @@ class Course:
     """Time since the command last moved. [s]"""
     slices: tuple[slice, ...] = (slice(None),)
     """Samples of each sweep."""
+    start: float = 0.0
+    """When the recording began. [s]"""
 
     def __len__(self) -> int:
         """Number of samples."""

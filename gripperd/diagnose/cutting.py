@@ -57,8 +57,9 @@ def courses(
     for name, std in recording.noise.items():
         if name in noises and std > noises[name].std:
             noises[name] = Noise(std, noises[name].correlation)
+    start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
     return tuple(
-        _course(sweep, noises, cycle, repeat)
+        _course(sweep, noises, cycle, repeat, start)
         for sweep, cycle, repeat in zip(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
@@ -66,14 +67,14 @@ def courses(
 
 
 def _course(
-    sweep: Run, noises: Mapping[str, Noise], cycle: Array, repeat: float
+    sweep: Run, noises: Mapping[str, Noise], cycle: Array, repeat: float, start: float
 ) -> Course:
     time = sweep.columns["time"]
     smoothed = levels(sweep, noises)
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat),
-        _directions(smoothed.get("contraction"), time), _stillness(sweep),
+        _directions(smoothed.get("contraction"), time), _stillness(sweep), start=start,
     )  # fmt: skip
 
 

@@ -201,12 +201,14 @@ def _told(
     effects = 1 if nearest.looser else len(entries)
     gap = judged[main] if main else None
     if slip or (gap and not gap.confirms(effects)):
-        is_open = gap is not None and gap.is_open
+        is_open = bool(slip) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
         points = (start, base, base)
         judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
+    if nothing := conclusion.verdict is Verdict.NONE:
+        entries = ()
     unexplained = conclusion.verdict is Verdict.UNEXPLAINED
     left = conclusion.signals or ((main,) if main else ())
     return Diagnosis(
@@ -218,7 +220,7 @@ def _told(
         main=main,
         held_out=swept(parts, inside),
         extrapolation=extrapolation(parts, outside, points, seed),
-        proposal=_next(found.problem, best),
+        proposal=None if nothing else _next(found.problem, best),
         signature=signature(train, best, conclusion, slip) if unexplained else (),
         corrections=tuple(offers(parts, left, base, nearest)) if unexplained else (),
         untested=untested | dict.fromkeys(found.faint, "leaves no trace here"),

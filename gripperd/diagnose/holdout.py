@@ -24,6 +24,10 @@ HELD = 0.03
 """Within this share of the highest pressure a sweep is a hold. [-]"""
 TAIL = 0.25
 """Part of a sweep that is left out then. [-]"""
+FEW_JAWS = 3
+"""With fewer sweeps of the jaws none of them can be spared."""
+SURE = 5.0
+"""Standard deviations of its noise from which a grip is one. [-]"""
 
 
 @dataclass(frozen=True)
@@ -77,13 +81,16 @@ def _spared(courses: Sequence[Course]) -> set[int]:
     # One grasp at most: the constants of the jaws are known from the others alone.
     spare = [index for index in inner if index in grasps][-1:]
     # Of three it must be one, or no sweep judges the jaws.
-    spared = set((spare or grasps[-1:]) if len(grasps) >= 3 else [])
+    spared = set((spare or grasps[-1:]) if len(grasps) >= FEW_JAWS else [])
     rest = [i for i in inner if i not in grasps or (i in spare and not spared)]
     moving = [index for index in rest if _travelled(courses[index])]
     resting = [index for index in rest if index not in moving]
     wanted = max(1, wanted - len(spared))
     of_moving = round(wanted * len(moving) / max(len(rest), 1))
     spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
+    jaws = [index for index, course in enumerate(courses) if _opens(course)]
+    if len(jaws) >= FEW_JAWS and not spared & set(jaws):
+        spared.add(jaws[-1])
     return spared
 
 
@@ -95,8 +102,14 @@ def _spread(places: Sequence[int], count: int) -> list[int]:
     return [places[round(place)] for place in chosen.tolist()]
 
 
-def _gripped(course: Course) -> bool:
+def _opens(course: Course) -> bool:
     return bool(np.isfinite(course.column("opening")).any())
+
+
+def _gripped(course: Course) -> bool:
+    """Whether jaws press on something."""
+    grip = course.column("grip")
+    return bool(np.nanmax(grip, initial=0.0) > course.hush("grip") * SURE)
 
 
 def _travelled(course: Course) -> bool:

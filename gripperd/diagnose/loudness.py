@@ -74,12 +74,7 @@ def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, No
     )  # fmt: skip
     if force is None or grip is None or linkage is None:
         return noises
-    readings = [
-        problem.courses[block.course].column("grip")[block.good]
-        for block in problem.blocks
-        if block.signal is Signal.GRIP
-    ]
-    own = quick_noise(readings, coarse_step(readings))
+    own = grip if is_table(problem.courses) else _of_grip(problem)
     fast = own.std**2 + (force.std / linkage.ratio) ** 2
     mean = own.slow_variance + force.slow_variance / linkage.ratio**2
     correlation = (mean - fast) / (mean + fast)
@@ -88,3 +83,14 @@ def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, No
     memory = float(np.average([grip.memory, force.memory, TURNS], weights=slow))
     drift = float(slow.sum() ** 0.5)
     return noises | {Signal.GRIP: Noise(fast**0.5, correlation, drift, memory)}
+
+
+def _of_grip(problem: Problem) -> Noise:
+    """Noise of the grip's own cell, from its readings on an object."""
+    readings = [
+        problem.courses[block.course].column("grip")[block.good]
+        for block in problem.blocks
+        if block.signal is Signal.GRIP
+    ]
+    noise = quick_noise(readings, coarse_step(readings))
+    return _audible(noise, Signal.GRIP, problem.courses)

@@ -128,7 +128,7 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
         sweep.title, sweep.kind, sweep.time + end, np.diff(sweep.time, prepend=0.0),
         columns, smooth, problem.courses[-1].cycle[-1] + 1 + 0 * sweep.time, nothing,
         travel(sweep.contraction, TRAVEL) * (np.ptp(sweep.contraction) > STILL),
-        np.full_like(sweep.time, np.nan),
+        np.full_like(sweep.time, np.nan), start=known.start,
     )  # fmt: skip
 
 

@@ -96,7 +96,7 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     One that has not paid its price must keep most of that, and leave but noise.
     """
     further = best.fit.cost - larger.fit.cost
-    bending = forms(best)
+    bending = [name for name in forms(best) if name in larger.names]
     before, after = (bent(problem, one, bending) for one in (best, larger))
     least = LEAST_OWN if bending else 2 * LEAST_MORE
     if before - after <= max(least, (MENDED if paid else OWN) * further):
@@ -117,7 +117,9 @@ def _is_fault(problem: Problem, rival: Rival) -> bool:
     """Whether a drift, if there is one, is more than that of a sound sensor."""
     if "force_sensor_drift" not in rival.names:
         return True
-    return _size(problem, rival, ["force_sensor_drift"], [Signal.FORCE]) >= RAMP
+    own = Signal.FORCE in problem.signals
+    signals = [Signal.FORCE] if own else problem.signals
+    return _size(problem, rival, ["force_sensor_drift"], signals) >= RAMP
 
 
 def _size(
@@ -133,11 +135,12 @@ def _size(
         return np.inf
     bare = replace(point, effects=others)
     there, here = (problem.expected(problem.explanation(p)) for p in (point, bare))
-    return max(
+    sizes = [
         float(np.max(np.abs(a - b))) / problem.full_scale[block.signal]
         for block, a, b in zip(problem.blocks, there, here, strict=True)
         if block.signal in signals
-    )
+    ]
+    return max(sizes)
 
 
 def acts_on(problem: Problem, candidate: Candidate) -> frozenset[Signal]:

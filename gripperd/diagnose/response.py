@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
@@ -13,6 +15,7 @@ from gripperd.model.track import Array
 
 STEP = 0.25
 """Step of a difference quotient, in sigma of a constant or scales of an amplitude."""
+_NOTHING: Array = np.empty(0)
 
 
 @dataclass(frozen=True)
@@ -36,34 +39,37 @@ def sensitivities(
 ) -> list[list[Array]]:
     """Change of every block for one sigma of each constant; constants first."""
     here = (base or Base.of(problem, point)).expected
+    # At its upper end a constant moves back: a sign of friction is 1 there for good.
+    ends = problem.reach(point) * point.widths
+    steps = np.where(point.shifts + STEP > ends, -STEP, STEP)
     # Constants of one sweep each are moved together: none feels the others.
     own = [i for i, one in enumerate(problem.constants) if one.course is not None]
-    apart = _slope(problem, point, own, here) if own else []
+    apart = _moved(problem, point, own, steps) if own else []
     found: list[list[Array]] = []
     for index, constant in enumerate(problem.constants):
         if constant.course is None:
-            found.append(_slope(problem, point, [index], here))
+            there = _moved(problem, point, [index], steps)
         else:
-            found.append(_of_course(problem, apart, constant.course))
+            there = _of_course(problem, apart, constant.course)
+        found.append(_quotient(problem, there, here, float(steps[index])))
     return found
 
 
-def _slope(
-    problem: Problem, point: Point, indices: list[int], here: list[Array]
+def _moved(
+    problem: Problem, point: Point, indices: list[int], steps: Array
 ) -> list[Array]:
+    """Readings where some constants are moved on; empty where they change nothing."""
     shifts = point.shifts.copy()
-    shifts[indices] += STEP
+    shifts[indices] += steps[indices]
     there = problem.explanation(replace(point, shifts=shifts))
-    moved_on = frozenset[Signal]().union(*(problem.constants[i].moves for i in indices))
-    return _quotient(problem, problem.expected(there, moved_on), here, STEP)
+    signals = frozenset[Signal]().union(*(problem.constants[i].moves for i in indices))
+    return problem.expected(there, signals)
 
 
-def _of_course(problem: Problem, columns: list[Array], course: int) -> list[Array]:
+def _of_course(problem: Problem, readings: list[Array], course: int) -> list[Array]:
     return [
-        column if block.course == course else zero
-        for column, block, zero in zip(
-            columns, problem.blocks, problem.zeros, strict=True
-        )
+        reading if block.course == course else _NOTHING
+        for reading, block in zip(readings, problem.blocks, strict=True)
     ]
 
 

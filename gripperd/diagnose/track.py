@@ -34,7 +34,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         command = np.clip(regulator.pressure(course.column("current")), *span)
     rough = Runs(
         muscle=explanation.muscle,
-        time=course.time,
+        time=course.time - course.start,
         step=course.step,
         command=command,
         span=span,

@@ -14,6 +14,7 @@ from tests.diagnose.fitted import fitted
 from tests.diagnose.small import MODEL, Hidden, Moment, pinned, recording, threshold
 
 RUB = CoulombFriction(magnitude=20.0)
+THRESHOLD = ThresholdPressure(pressure=20e3)
 
 
 def _rubbing(growth: float = 0.0) -> Hidden:
@@ -44,9 +45,7 @@ def test_what_mends_a_form_has_nothing_left_once_that_bends() -> None:
     assert _share(_rubbing(0.3), RUB, PressureFriction()) < 0.2
 
 
-@pytest.mark.parametrize(
-    "further", [ThresholdPressure(pressure=20e3), ForceSensorBias(bias=5.0)]
-)
+@pytest.mark.parametrize("further", [THRESHOLD, ForceSensorBias(bias=5.0)])
 def test_an_effect_of_its_own_keeps_what_it_closes(further: Effect) -> None:
     def both(moment: Moment) -> Array:
         return _rubbing()(moment) + threshold(10.0)(moment)
@@ -58,5 +57,18 @@ def test_what_has_but_one_form_does_not_bend() -> None:
     def off(moment: Moment) -> Array:
         return 20.0 + threshold(10.0)(moment)
 
-    share = _share(off, ForceSensorBias(bias=5.0), ThresholdPressure(pressure=20e3))
+    share = _share(off, ForceSensorBias(bias=5.0), THRESHOLD)
     assert share == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.parametrize("effects", [(THRESHOLD,), (RUB,), (THRESHOLD, RUB)])
+def test_unbent_an_explanation_leaves_what_its_fit_left(
+    effects: tuple[Effect, ...],
+) -> None:
+    # Signs of friction at rest that end at 1 have nowhere to go from there.
+    def both(moment: Moment) -> Array:
+        return threshold(60.0)(moment) - 30.0 * moment.direction
+
+    problem = problem_of(recording(both), MODEL, {})
+    rival = fitted(problem, *(Candidate(one.name, one) for one in effects))
+    assert bent(problem, rival, ()) == pytest.approx(rival.fit.cost, rel=1e-3)

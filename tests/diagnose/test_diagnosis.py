@@ -9,6 +9,7 @@ from gripperd.diagnose.candidates import Candidate, forms
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.document import document
+from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.holdout import split
 from gripperd.diagnose.recording import Recording
 from gripperd.diagnose.search import search
@@ -324,3 +325,17 @@ def test_a_sensor_that_errs_is_judged_where_constants_leave_most() -> None:
     assert found.verdict is Verdict.NAMED
     # Bore and angle take most of it from the force, and nothing from the pressure.
     assert found.main is Signal.PRESSURE
+
+
+def test_where_nothing_is_missing_nothing_is_told_to_be_near_or_next(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A name that sweeps left out do not bear out, and nothing else to be seen."""
+    monkeypatch.setattr(Gap, "confirms", lambda _gap, _effects: False)
+    monkeypatch.setattr(Gap, "is_open", False)
+    weak = recording(threshold(6.0), noise=0.1)
+    found = diagnose(weak, MODEL, {}, {name: EFFECTS[name] for name in FEW})
+    assert found.verdict is Verdict.NONE
+    assert found.contest.best.candidates
+    text = document(found, model="m", program="p")
+    assert (text["effects"], text["nearest"], text["next_experiment"]) == ([], [], None)

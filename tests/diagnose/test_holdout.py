@@ -45,6 +45,14 @@ def test_about_a_fifth_is_left_out(parts: Split) -> None:
     assert 1 <= len(parts.runs) <= 2
 
 
+def test_jaws_in_every_sweep_leave_it_a_fifth(blank: Problem, parts: Split) -> None:
+    opened = tuple(
+        replace(one, measured={**one.measured, "opening": 0.05 + 0 * one.time})
+        for one in blank.courses
+    )
+    assert split(replace(blank, courses=opened)).runs == parts.runs
+
+
 def test_the_first_sweep_stays_for_only_it_shows_a_first_inflation(
     blank: Problem,
 ) -> None:

@@ -24,6 +24,7 @@ from tests.diagnose.small import (
     altered,
     recording,
     rubbing,
+    tabled,
     textbook,
     threshold,
     with_grip,
@@ -157,3 +158,22 @@ def test_a_noisy_force_hides_no_contact(gripping: Problem) -> None:
 
 def _null(problem: Problem) -> Point:
     return Point(np.zeros(len(problem.constants)))
+
+
+def test_points_of_a_table_are_no_neighbours_of_each_other() -> None:
+    """Forces up to 1.3 kN and grips up to 280 N in any order: an instrument's 0.2 %."""
+    plain = tabled(lambda moment: 0 * moment.time)
+    random = np.random.default_rng(3)
+    runs = []
+    for run in plain.runs:
+        grip = np.maximum((run.columns["force"] - 240.0) / 4, 0.0)
+        order = random.permutation(len(run))
+        columns = {
+            name: column if name == "time" else column[order]
+            for name, column in {**run.columns, "grip": grip}.items()
+        }
+        runs.append(Run(run.name, columns, run.kind))
+    problem = problem_of(replace(plain, runs=tuple(runs)), JAWED, {})
+    top = problem.full_scale[Signal.GRIP]
+    # Beside its own that of the force, 2.6 N over 4.
+    assert 0.002 * top <= problem.noises[Signal.GRIP].std < 0.01 * top

@@ -1,4 +1,5 @@
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.fitted import fitted
 from tests.diagnose.small import (
+    LINKAGE,
     MODEL,
     Hidden,
     Moment,
@@ -31,6 +33,8 @@ from tests.diagnose.small import (
     restless,
     rubbing,
     threshold,
+    with_grip,
+    without,
 )
 
 
@@ -50,6 +54,7 @@ def test_a_candidate_acts_on_these_of_the_signals_explained(
     assert acts_on(blank, candidate) == signals
 
 
+JAWED = replace(MODEL, linkage=LINKAGE)
 BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
 DRIFT = Candidate("force_sensor_drift", ForceSensorDrift(rate=0.01))
 GROWS = Candidate("pressure_friction", PressureFriction())
@@ -93,6 +98,22 @@ def test_a_ramp_that_a_sound_sensor_may_drift_is_no_fault(
     problem, (null, best) = _fits(told, DRIFT)
     assert best.evidence - null.evidence > 100.0
     assert worth(problem, null, null, best, 20.0) is worth_it
+
+
+def _drifts(force: Array) -> Array:
+    return force + np.linspace(0.0, 40.0, force.size)
+
+
+def test_a_drift_that_shows_in_the_grip_alone_is_held_against_the_grip() -> None:
+    told = with_grip(recording(noise=0.1))
+    told = altered(
+        told, moments(), "force", lambda read: read + np.linspace(0, 40, read.size)
+    )
+    problem = problem_of(without(told, "pressure", "current"), JAWED, {})
+    assert problem.signals == (Signal.GRIP,)
+    null, best = (fitted(problem, *one) for one in ((), (DRIFT,)))
+    assert best.evidence - null.evidence > 20.0
+    assert worth(problem, null, null, best, 20.0)
 
 
 def _rubs_more(growth: float) -> Hidden:

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -70,6 +72,25 @@ def test_the_sign_at_rest_changes_its_own_sweep_alone(
     for block, response in zip(blank.blocks, slopes, strict=True):
         if block.course != course:
             assert not response.any()
+
+
+@pytest.mark.parametrize("end", [-1, 1])
+def test_a_sign_at_rest_is_felt_at_either_end_of_its_reach(
+    blank: Problem, start: Point, end: int
+) -> None:
+    # The muscle of the first, which is vented, rubs on nothing.
+    index = [
+        i for i, one in enumerate(blank.constants) if one.path.startswith("rest.")
+    ][1]
+    middle = sensitivities(blank, start)[index]
+    assert any(one.any() for one in middle)
+    shifts = start.shifts.copy()
+    shifts[index] = end * blank.reach(start)[index]
+    there = sensitivities(blank, replace(start, shifts=shifts))[index]
+    for one, other in zip(there, middle, strict=True):
+        # A sign of 1.04 counts as 1, so that a third of the step goes nowhere.
+        assert np.abs(one).sum() >= 0.5 * np.abs(other).sum()
+        assert (one * other).sum() >= 0.0
 
 
 def test_a_response_is_that_of_one_scale(blank: Problem, start: Point) -> None:

@@ -12,6 +12,8 @@ from gripperd.effects.length_datum import LengthDatum
 from gripperd.model.effect import Signal
 from tests.diagnose.small import (
     MODEL,
+    altered,
+    moments,
     recording,
     with_jaws,
     without,
@@ -82,3 +84,12 @@ def test_where_there_was_travel_its_direction_counts() -> None:
         signs = directions(replace(MODEL, at_rest=convention), course, 0)
         assert set(signs[5:45]) == {1.0}
         assert set(signs[56:]) == {-1.0}
+
+
+def test_the_clock_of_what_happened_begins_with_the_recording() -> None:
+    plain = recording()
+    late = altered(plain, moments(), "time", lambda time: time + 1.7e9)
+    for one, other in zip(courses(late, 0.25)[0], courses(plain, 0.25)[0], strict=True):
+        told, known = (track_of(MODEL, course, 0).time for course in (one, other))
+        np.testing.assert_allclose(told, known, atol=1e-5)
+    assert track_of(MODEL, one, 0).time[0] > 0.0
