@@ -11,7 +11,7 @@ from gripperd.diagnose.finalists import leaders
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.price import HALF, LEAST_MORE
+from gripperd.diagnose.price import HALF, LEAST_MORE, is_fault
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import SURE, Contest, removed
@@ -117,7 +117,11 @@ def _goes_on(problem: Problem, here: Rival, larger: Rival) -> bool:
         return False
     before, after = (drifted(problem, point) for point in points)
     takes_much = before - after > HALF * before
-    return takes_much and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+    return (
+        takes_much
+        and is_fault(problem, larger)
+        and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+    )
 
 
 def _takes_its_share(problem: Problem, here: Rival, larger: Rival) -> bool:

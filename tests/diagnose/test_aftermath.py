@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose import price
 from gripperd.diagnose.aftermath import with_aftermath
 from gripperd.diagnose.candidates import Candidate, forms
 from gripperd.diagnose.found import Found
@@ -181,6 +182,15 @@ def test_no_rival_is_what_is_told_beside_it() -> None:
     _, told = _told(lenient, _with_rival(found, best, LATE[0], "force_sensor_bias"))
     assert told.best.names == ("force_sensor_bias", "threshold_pressure", "creep")
     assert told.rivals[0] == ()
+
+
+def test_a_drift_is_told_if_it_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, best = _ended(threshold(60.0), _ageing)
+    _, told = _told(found, best)
+    assert told.best.names == ("threshold_pressure", "force_sensor_drift")
+    # Were it that of sound sensors.
+    monkeypatch.setattr(price, "RAMP", 1.0)
+    assert _told(found, best) == (found, best)
 
 
 def test_near_the_noise_the_search_has_heard_it() -> None:
