@@ -56,7 +56,7 @@ def with_aftermath(
     here = Rival(here.candidates, polished(problem, point))
     tried = [here]
     lasting, others = _grown(problem, here, listed)
-    # Once only: more would be told from what is left of a wave, or of a wrong form.
+    # Once: two names in all are as many as a measured muscle has needed.
     if others and _takes_its_share(problem, here, others[0]):
         here = others[0]
         tried.append(here)
