@@ -11,7 +11,7 @@ from gripperd.diagnose.finalists import leaders
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.price import HALF, LEAST_MORE
+from gripperd.diagnose.price import HALF, LEAST_MORE, is_fault
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import SURE, Contest, removed
@@ -33,8 +33,9 @@ def with_aftermath(
     """Add the effect by which the force goes on changing after a step.
 
     Far above the noise the search does not hear it: it is small beside the level that
-    the model misses. But that level stays the same while the command rests. Effects
-    that take most of what the levels are off go before it, and are told only with it.
+    the model misses. But that level stays the same while the command rests. An effect
+    that takes much of what the levels are off goes before it, and is told only with it.
+    What was told before and is idle beside them is told no more.
 
     Parameters
     ----------
@@ -55,25 +56,30 @@ def with_aftermath(
     here = Rival(here.candidates, polished(problem, point))
     tried = [here]
     lasting, others = _grown(problem, here, listed)
-    while others and _takes_its_share(problem, here, others[0]):
+    # Once: two names in all are as many as a measured muscle has needed.
+    if others and _takes_its_share(problem, here, others[0]):
         here = others[0]
         tried.append(here)
         lasting, others = _grown(problem, here, listed)
     going = [rival for rival in lasting if _goes_on(problem, here, rival)]
     if not going:
         return found, best
-    told, *rest = going
-    alike = tuple(one for one in rest if told.evidence - one.evidence < SURE)
-    count = len(best.best.candidates)
-    own = [
-        tuple(_with_later(problem, rival, told, count) for rival in rivals)
-        for rivals in best.rivals
-    ]
-    later = [()] * (len(told.candidates) - count - 1)
+    told, without = _needed(problem, going[0], found.threshold)
+    own, *alike = (rival.candidates[-1] for rival in going)
+    if own not in told.candidates:
+        return found, best
+    stand_ins = _stand_ins(best) | {own: alike}
     rivals = sorted((*tried, *lasting, *others), key=lambda rival: -rival.evidence)
     return (
         replace(found, problem=problem, best=told, rivals=tuple(rivals)),
-        Contest(told, tuple(_without(problem, told)), (*own, *later, alike)),
+        Contest(
+            told,
+            without,
+            tuple(
+                tuple(_weighed(problem, told, place, stand_ins.get(one, [])))
+                for place, one in enumerate(told.candidates)
+            ),
+        ),
     )
 
 
@@ -101,7 +107,7 @@ def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival
 
 
 def _goes_on(problem: Problem, here: Rival, larger: Rival) -> bool:
-    """Whether the dwells tell an effect, and most of their drift is gone with it.
+    """Whether the dwells tell an effect, and much of their drift is gone with it.
 
     One that has but the levels to explain lets the dwells drift as before, or more.
     """
@@ -110,8 +116,12 @@ def _goes_on(problem: Problem, here: Rival, larger: Rival) -> bool:
     if min(0.5 * (before - after), larger.evidence - here.evidence) <= LEAST_MORE:
         return False
     before, after = (drifted(problem, point) for point in points)
-    halves = before - after > HALF * before
-    return halves and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+    takes_much = before - after > HALF * before
+    return (
+        takes_much
+        and is_fault(problem, larger)
+        and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+    )
 
 
 def _takes_its_share(problem: Problem, here: Rival, larger: Rival) -> bool:
@@ -120,20 +130,21 @@ def _takes_its_share(problem: Problem, here: Rival, larger: Rival) -> bool:
         one.fit.misfits[Signal.FORCE] - misfit(problem, one.fit.point)
         for one in (here, larger)
     )
-    halves = before - after > HALF * before
-    return halves and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+    takes_much = before - after > HALF * before
+    return takes_much and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
 
 
-def _with_later(problem: Problem, rival: Rival, told: Rival, count: int) -> Rival:
-    """Give a rival of the first few what was added to them."""
-    later = told.candidates[count:]
-    point = rival.fit.point
-    for candidate in later:
-        point = added(point, candidate)
-    for effect in told.fit.point.effects:
-        if effect.name in {one.name for one in later}:
-            point = point.with_effect(effect)
-    return Rival((*rival.candidates, *later), polished(problem, point))
+def _needed(
+    problem: Problem, told: Rival, threshold: float
+) -> tuple[Rival, tuple[Rival, ...]]:
+    """Drop what is idle beside the rest, and give it without each that is not."""
+    without = tuple(_without(problem, told))
+    while len(told.candidates) > 1:
+        idle = max(without, key=lambda one: one.evidence)
+        if told.evidence - idle.evidence > threshold:
+            break
+        told, without = idle, tuple(_without(problem, idle))
+    return told, without
 
 
 def _without(problem: Problem, told: Rival) -> Iterator[Rival]:
@@ -142,3 +153,27 @@ def _without(problem: Problem, told: Rival) -> Iterator[Rival]:
         rest = (*told.candidates[:index], *told.candidates[index + 1 :])
         point = removed(problem, told.fit.point, own)
         yield Rival(rest, polished(problem, point))
+
+
+def _stand_ins(best: Contest) -> dict[Candidate, list[Candidate]]:
+    """What fitted as well in the place of each candidate."""
+    return {
+        one: [rival.candidates[place] for rival in rivals]
+        for place, (one, rivals) in enumerate(
+            zip(best.best.candidates, best.rivals, strict=True)
+        )
+    }
+
+
+def _weighed(
+    problem: Problem, told: Rival, place: int, stand_ins: Sequence[Candidate]
+) -> Iterator[Rival]:
+    """Give what fits as well in a place."""
+    bare = removed(problem, told.fit.point, told.candidates[place])
+    for one in stand_ins:
+        if one.name in told.names:
+            continue
+        candidates = (*told.candidates[:place], one, *told.candidates[place + 1 :])
+        rival = Rival(candidates, polished(problem, added(bare, one)))
+        if told.evidence - rival.evidence < SURE:
+            yield rival

@@ -17,6 +17,7 @@ from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.quiet import HELD, highest
 from gripperd.diagnose.whitening import whitened
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -26,6 +27,11 @@ SETTLED = 1.0
 muscle swings for ten times the 60 to 110 ms in which the length follows. [s]"""
 SHORTEST = 3.0
 """A shorter dwell tells little but how a step dies away. [s]"""
+SAMPLES = 8
+"""Fewer leave too little beside a level and two ways of creeping."""
+STILL = 0.01
+"""Change of the contraction up to which nothing moves: the creep of a hanging load is
+0.2 to 0.4 % of the length per decade of time. [-]"""
 FEW = 5
 """Dwells from which a law can be told: fewer may each have a chance of its own."""
 
@@ -47,12 +53,12 @@ def dwelling(problem: Problem, point: Point, noise: Noise) -> Problem:
     if len(dwells) < FEW:
         return problem
     within = _within(replace(problem, dwells=dwells), point)
-    squares, samples = 0.0, 0
+    squares, free = 0.0, 0
     for quiet in within:
         rest = _unforeseen(quiet, noise)
         squares += float(rest @ rest)
-        samples += rest.size
-    louder = _about(noise, problem.noises[Signal.FORCE].std, squares / samples)
+        free += rest.size - quiet.regressors.shape[1]
+    louder = _about(noise, problem.noises[Signal.FORCE].std, squares / free)
     return replace(problem, dwells=tuple(one._replace(noise=louder) for one in dwells))
 
 
@@ -60,7 +66,7 @@ def misfit(problem: Problem, point: Point) -> float:
     """Chi² of the dwells, each about a level of its own."""
     residuals = problem.residuals(point)
     total = 0.0
-    for index in range(len(residuals) - len(problem.dwells), len(residuals)):
+    for index in _places(problem):
         white = problem.white([residuals[index]], index)
         total += float(np.sum(white**2))
     return total
@@ -90,22 +96,38 @@ def drifted(problem: Problem, point: Point) -> float:
 
 def _within(problem: Problem, point: Point) -> Iterator[Quiet]:
     """What is left in each dwell, beside its level and the ways of creeping."""
-    count = len(problem.dwells)
     residuals = problem.residuals(point)
-    for time, residual in zip(problem.times[-count:], residuals[-count:], strict=True):
-        yield hold(time, residual, creeps=True)
+    for index in _places(problem):
+        yield hold(problem.times[index], residuals[index], creeps=True)
+
+
+def _places(problem: Problem) -> range:
+    """Where the dwells are among the blocks: last."""
+    count = len(problem.blocks)
+    return range(count - len(problem.dwells), count)
 
 
 def _dwells(problem: Problem) -> Iterator[Block]:
     """Dwells of the force; what came before the first command is not known."""
+    top = highest(problem)
     for block in problem.blocks:
         if block.signal is not Signal.FORCE:
             continue
         course = problem.courses[block.course]
         for stretch in _stretches(course):
             good = block.good & stretch & (course.still >= SETTLED)
-            if good.any() and np.ptp(course.time[good]) >= SHORTEST:
+            if good.sum() < SAMPLES or np.ptp(course.time[good]) < SHORTEST:
+                continue
+            if _is_still(course, good, top):
                 yield block._replace(good=good)
+
+
+def _is_still(course: Course, good: Mask, top: float) -> bool:
+    """Whether neither length nor pressure changes by more than rubber creeps."""
+    moved, pressed = (
+        float(np.ptp(course.level(name)[good])) for name in ("contraction", "pressure")
+    )
+    return moved < STILL and pressed < HELD * top
 
 
 def _stretches(course: Course) -> Iterator[Mask]:

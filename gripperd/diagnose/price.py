@@ -62,7 +62,7 @@ def worth(
         Gain that noise alone seldom reaches. [nat]
     """
     gain = larger.evidence - best.evidence
-    if gain <= threshold or not _is_fault(problem, larger):
+    if gain <= threshold or not is_fault(problem, larger):
         return False
     if not best.candidates:
         return _size(problem, larger, larger.names, problem.signals) >= SEEN
@@ -113,8 +113,8 @@ def _change(problem: Problem, one: Point, other: Point) -> float:
     )
 
 
-def _is_fault(problem: Problem, rival: Rival) -> bool:
-    """Whether a drift, if there is one, is more than that of a sound sensor."""
+def is_fault(problem: Problem, rival: Rival) -> bool:
+    """Tell whether a drift, if there is one, is more than that of a sound sensor."""
     if "force_sensor_drift" not in rival.names:
         return True
     own = Signal.FORCE in problem.signals

@@ -4,15 +4,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose import price
 from gripperd.diagnose.aftermath import with_aftermath
 from gripperd.diagnose.candidates import Candidate, forms
 from gripperd.diagnose.found import Found
+from gripperd.diagnose.polish import polished
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.rivalry import Contest, contest
 from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.nonlinear_elasticity import NonlinearElasticity
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -78,6 +82,11 @@ def test_what_explains_but_levels_is_not_told(hidden: tuple[Hidden, ...]) -> Non
     assert after is found
 
 
+def _ageing(moment: Moment) -> Array:
+    """A sensor that gains 0.3 N a second."""
+    return 0.3 * moment.time
+
+
 def _slipping(moment: Moment) -> Array:
     """After each command the force slips for seconds, either way, by 15 N or so."""
     random = np.random.default_rng(int(moment.time[0]))
@@ -100,7 +109,88 @@ def test_what_takes_most_of_the_levels_is_told_with_it() -> None:
     found, best = _ended(threshold(60.0), creeping(0.02), listed=LEVELS[1:])
     assert best.best.names == ("force_sensor_bias",)
     _, told = _told(found, best)
+    # The bias is idle beside what it stood for.
+    assert told.best.names == ("threshold_pressure", "creep")
+    assert len(told.without) == len(told.rivals) == 2
+
+
+def _with_rival(
+    found: Found, best: Contest, candidate: Candidate, name: str = "threshold_pressure"
+) -> Contest:
+    """The same, had another fitted as well in the place of one."""
+    place = best.best.names.index(name)
+    own = best.best.candidates
+    assert candidate.effect is not None
+    point = best.without[place].fit.point.with_effect(candidate.effect)
+    rival = Rival(
+        (*own[:place], candidate, *own[place + 1 :]), polished(found.problem, point)
+    )
+    rivals = tuple((rival,) if i == place else () for i in range(len(own)))
+    return replace(best, rivals=rivals)
+
+
+def _stiff(moment: Moment) -> Array:
+    """Rubber that pushes back by 150 N at a contraction of 12 %."""
+    return -150.0 * (moment.contraction / 0.12) ** 2
+
+
+def test_two_are_added_at_most() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.04), _stiff, listed=LEVELS[1:])
+    rubber = [Candidate("nonlinear_elasticity", f) for f in forms(NonlinearElasticity)]
+    noises = stepped.problem(missed).noises
+    _, told = with_aftermath(found, best, (*LEVELS, *LATE, *rubber), noises)
+    assert best.best.names == ("force_sensor_bias",)
+    assert told.best.names == ("force_sensor_bias", "nonlinear_elasticity", "creep")
+
+
+def test_what_creeps_is_not_told_if_it_is_idle_itself() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02))
+    doubtful = replace(found, threshold=1e4)
+    assert _told(doubtful, best) == (doubtful, best)
+
+
+def test_a_rival_that_falls_behind_is_one_no_more() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02))
+    _, told = _told(found, _with_rival(found, best, LEVELS[1]))
+    assert told.best.names == ("threshold_pressure", "creep")
+    assert told.rivals[0] == ()
+
+
+def test_a_rival_that_fits_as_well_beside_creep_stays_one() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02))
+    twin = Candidate("twin", ThresholdPressure(pressure=30e3))
+    _, told = _told(found, _with_rival(found, best, twin))
+    (rival,) = told.rivals[0]
+    assert rival.names == ("twin", "creep")
+    assert rival.evidence == pytest.approx(told.best.evidence, abs=0.5)
+
+
+def test_rivals_stay_beside_what_they_stand_for() -> None:
+    found, best = _ended(threshold(60.0), _ageing)
+    assert best.best.names == ("force_sensor_bias", "threshold_pressure")
+    twin = Candidate("twin", ThresholdPressure(pressure=30e3))
+    _, told = _told(found, _with_rival(found, best, twin))
+    assert told.best.names == ("threshold_pressure", "force_sensor_drift")
+    (rival,) = told.rivals[0]
+    assert rival.names == ("twin", "force_sensor_drift")
+
+
+def test_no_rival_is_what_is_told_beside_it() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02), listed=LEVELS[1:])
+    # The bias is idle, so that creep twice would do as well as creep beside it.
+    lenient = replace(found, threshold=-100.0)
+    _, told = _told(lenient, _with_rival(found, best, LATE[0], "force_sensor_bias"))
     assert told.best.names == ("force_sensor_bias", "threshold_pressure", "creep")
+    assert told.rivals[0] == ()
+
+
+def test_a_drift_is_told_if_it_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, best = _ended(threshold(60.0), _ageing)
+    _, told = _told(found, best)
+    assert told.best.names == ("threshold_pressure", "force_sensor_drift")
+    # Were it that of sound sensors.
+    monkeypatch.setattr(price, "RAMP", 1.0)
+    assert _told(found, best) == (found, best)
 
 
 def test_near_the_noise_the_search_has_heard_it() -> None:

@@ -61,6 +61,58 @@ def test_four_dwells_are_too_few() -> None:
     assert dwelling(once, START, IDENTIFIED) is once
 
 
+def _sparse(problem: Problem, every: int, first: int = 0) -> Problem:
+    """The same with but every so-many-th sample."""
+    kept = tuple(np.arange(len(one)) % every == first for one in problem.courses)
+    return replace(problem, kept=kept)
+
+
+def _loudness(problem: Problem) -> float:
+    """How loud the dwells are taken if the noise was thought to be half as loud. [N]"""
+    (dwell, *_) = dwelling(problem, START, replace(IDENTIFIED, std=1.5)).dwells
+    assert dwell.noise is not None
+    return dwell.noise.std
+
+
+def test_few_samples_are_as_loud_as_many() -> None:
+    hot = _hot()
+    # Of 8 or 9 samples a dwell a level and two ways of creeping take three.
+    few = [_loudness(_sparse(hot, 8, first)) for first in range(8)]
+    assert np.mean(few) == pytest.approx(_loudness(hot), rel=0.05)
+
+
+def test_a_dwell_of_six_samples_is_none() -> None:
+    sparse = _sparse(_hot(), 12)
+    assert dwelling(sparse, START, IDENTIFIED) is sparse
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "fewer"),
+    [
+        ("contraction", 0.004, 0),
+        ("contraction", 0.03, 3),
+        ("pressure", 5e3, 0),
+        ("pressure", 30e3, 3),
+    ],
+)
+def test_what_moves_does_not_dwell(name: str, change: float, fewer: int) -> None:
+    hot = _hot()
+    first, *others = hot.courses
+    ramp = change * ((first.time - first.time[0]) % DWELL) / DWELL
+    moving = replace(
+        first,
+        measured={**first.measured, name: first.level(name) + ramp},
+        smooth={one: smooth for one, smooth in first.smooth.items() if one != name},
+    )
+    dwells = dwelling(replace(hot, courses=(moving, *others)), START, IDENTIFIED).dwells
+    assert len(dwells) == 27 - fewer
+    assert fewer == 0 or all(block.course > 0 for block in dwells)
+
+
+def test_without_dwells_nothing_drifts() -> None:
+    assert drifted(_hot(), START) == misfit(_hot(), START) == 0.0
+
+
 def test_the_level_of_a_dwell_costs_little_and_its_drift_much() -> None:
     problem = dwelling(_hot(), START, IDENTIFIED)
     count = len(problem.dwells)
