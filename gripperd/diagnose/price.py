@@ -20,7 +20,7 @@ not an effect of its own: no library has the formula of nature. [-]"""
 OWN = 0.5
 """Share of a gain that no bending of the first effects takes, from which it is that of
 an effect of its own, be it ever so small. [-]"""
-MENDED = 0.1
+MENDED = 0.05
 """Share below which it mends a form, be it ever so large. [-]"""
 LEAST_OWN = 100.0
 """Fall of chi² that bending leaves at least of an effect of its own. [-]"""
