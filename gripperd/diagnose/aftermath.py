@@ -50,6 +50,9 @@ def with_aftermath(
     if found.problem.temperature([Signal.FORCE]) <= 1 or not here.candidates:
         return found, best
     point = here.fit.point
+    # Tolerances that are too tight are one finding, of which nothing can be dropped.
+    if point.looser:
+        return found, best
     problem = dwelling(cooled(found.problem, here.fit), point, noises[Signal.FORCE])
     if not problem.dwells:
         return found, best

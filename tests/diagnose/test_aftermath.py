@@ -64,6 +64,14 @@ def test_what_creeps_far_below_the_misfit_is_told() -> None:
     assert [one.names for one in told.without] == [("creep",), ("threshold_pressure",)]
 
 
+def test_beside_tolerances_that_are_too_tight_nothing_is_told() -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02))
+    fit = best.best.fit
+    point = replace(fit.point, looser=tuple(3.0 * np.ones(fit.point.shifts.size)))
+    best = replace(best, best=replace(best.best, fit=replace(fit, point=point)))
+    assert _told(found, best) == (found, best)
+
+
 def test_creep_is_told_in_its_size() -> None:
     _, told = _told(*_ended(threshold(60.0), creeping(0.06)))
     (creep,) = (one for one in told.best.fit.point.effects if isinstance(one, Creep))
