@@ -66,9 +66,10 @@ class Gap:
     def confirms(self, effects: int) -> bool:
         """Whether what took no part bears so many effects out.
 
-        A crowd of effects can imitate one that no library holds, but not closely.
+        A crowd of effects can imitate one that no library holds, but not closely. What
+        is worse by no more than chance, where little was left to close, says nothing.
         """
-        if self.after > WORSE * max(self.recalibrated, self.noise_floor):
+        if self.ci95_after[0] > WORSE * max(self.recalibrated, self.noise_floor):
             return False
         crowd = effects > CROWD
         reached = self.after <= (CLOSELY if crowd else REACHED) * self.noise_floor

@@ -63,6 +63,18 @@ def test_effects_are_confirmed_by_what_they_close_of_a_gap(
     assert gap.confirms(2) is confirms
 
 
+@pytest.mark.parametrize(
+    ("after", "low", "confirms"),
+    [(3.4, 3.1, True), (3.4, 3.3, False), (4.2, 3.1, False)],
+)
+def test_what_is_worse_by_chance_where_little_was_left_says_nothing(
+    after: float, low: float, *, confirms: bool
+) -> None:
+    # 3.2 N were left of a noise of 3 N, and 3.9 N is as far as noise may go.
+    gap = replace(_gap(3.2, after), ci95_after=(low, 2 * after - low))
+    assert gap.confirms(1) is confirms
+
+
 @pytest.mark.parametrize(("recalibrated", "is_open"), [(3.8, False), (4.0, True)])
 def test_a_gap_is_open_from_thirteen_tenths_of_the_noise(
     recalibrated: float, *, is_open: bool
