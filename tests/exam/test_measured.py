@@ -172,7 +172,12 @@ def test_steps_show_creep() -> None:
     assert found.gaps[Signal.FORCE].after < 1.2
 
 
-def test_the_valve_of_the_steps_follows_as_regulators_do() -> None:
+def test_steps_show_a_slow_valve() -> None:
+    found = _diagnosis("pam10_steps", "pam10")
+    assert "valve_lag" in _names(found), _said(found)
+
+
+def test_the_valve_of_the_steps_is_slowest_down_to_nothing() -> None:
     answers = {
         vents: [
             time for vent, time in _answers(_recording("pam10_steps")) if vent == vents
@@ -180,18 +185,9 @@ def test_the_valve_of_the_steps_follows_as_regulators_do() -> None:
         for vents in (False, True)
     }
     assert (len(answers[False]), len(answers[True])) == (14, 4)
-    # 10 to 60 ms any regulator takes, and that the model allows: no effect is missing.
+    # 10 to 60 ms any regulator takes, and the model lets it go up to 72 ms.
     assert 0.01 < np.median(answers[False]) < 0.06
-    assert max(answers[False]) < 0.07
-    # Only down to nothing is it slower, once a run; no lag of the library is so there
-    # and not elsewhere.
-    assert min(answers[True]) > 0.07
-    found = _diagnosis("pam10_steps", "pam10")
-    assert "valve_lag" not in _names(found), _said(found)
-    paths = [constant.path for constant in found.found.problem.constants]
-    response = found.explained.shifts[paths.index("response.valve")]
-    # In sigma of 20 ms about 20 ms.
-    assert -0.5 < response < 2.0
+    assert max(answers[False]) < 0.07 < min(answers[True])
 
 
 def _answers(recording: Recording) -> Iterator[tuple[bool, float]]:
