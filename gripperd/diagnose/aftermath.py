@@ -11,7 +11,7 @@ from gripperd.diagnose.finalists import leaders
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.price import HALF, LEAST_MORE, is_fault
+from gripperd.diagnose.price import LEAST_MORE, MUCH, is_fault
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import SURE, Contest, removed
@@ -119,7 +119,7 @@ def _goes_on(problem: Problem, here: Rival, larger: Rival) -> bool:
     if min(0.5 * (before - after), larger.evidence - here.evidence) <= LEAST_MORE:
         return False
     before, after = (drifted(problem, point) for point in points)
-    takes_much = before - after > HALF * before
+    takes_much = before - after > MUCH * before
     return (
         takes_much
         and is_fault(problem, larger)
@@ -133,7 +133,7 @@ def _takes_its_share(problem: Problem, here: Rival, larger: Rival) -> bool:
         one.fit.misfits[Signal.FORCE] - misfit(problem, one.fit.point)
         for one in (here, larger)
     )
-    takes_much = before - after > HALF * before
+    takes_much = before - after > MUCH * before
     return takes_much and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
 
 

@@ -60,7 +60,8 @@ def bent(problem: Problem, rival: Rival, names: Sequence[str]) -> float:
     tangent = Tangent.at(problem, rival.fit)
     columns = tangent.columns
     if names:
-        bends = [_bends(problem, rival, name) for name in names]
+        waves = _waves(problem)
+        bends = [_bends(problem, rival, name, waves) for name in names]
         columns = [
             np.hstack([own, *more])
             for own, more in zip(columns, zip(*bends, strict=True), strict=True)
@@ -75,14 +76,15 @@ def bent(problem: Problem, rival: Rival, names: Sequence[str]) -> float:
     return float(y @ y + prior @ prior - (2 * moments - matrix @ best) @ best)
 
 
-def _bends(problem: Problem, rival: Rival, name: str) -> list[Array]:
+def _bends(
+    problem: Problem, rival: Rival, name: str, waves: Sequence[Array]
+) -> list[Array]:
     """Whitened columns of an effect times every slow function, block by block."""
     point = rival.fit.point
     there, bare = (
         problem.expected(problem.explanation(one))
         for one in (point, point.without(name))
     )
-    waves = _waves(problem)
     return [
         problem.white(list(BENT * (there[index] - bare[index]) * waves[index]), index)
         for index in range(len(problem.blocks))

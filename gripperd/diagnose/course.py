@@ -60,7 +60,7 @@ class Course:
         return self.smooth[name].value if name in self.smooth else self.column(name)
 
     def hush(self, name: str) -> float:
-        """One sigma of the noise that was taken off a column, 0 where none was."""
+        """One sigma of the noise taken off a column, as a mean of many has it."""
         return self.smooth[name].variance ** 0.5 if name in self.smooth else 0.0
 
     def rate(self, name: str) -> Array:

@@ -26,7 +26,7 @@ LEAST_OWN = 100.0
 """Fall of chi² that bending leaves at least of an effect of its own. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
-HALF = 0.4
+MUCH = 0.4
 """Share of what is left, far above the noise, that an effect of its own takes. [-]"""
 EXACT = 0.25
 """Share of :data:`PHANTOM` paid by what has but one form, as the effects before that
@@ -86,8 +86,8 @@ def worth(
     if not hot:
         return _stands_alone(problem, best, larger, paid=paid)
     # Far above the noise it counts what an addition takes of what was left.
-    halves = further > HALF * sum(best.fit.misfits[s] for s in signals)
-    return (paid or halves) and bears_out(problem, best.fit, larger.fit, signals)
+    takes_much = further > MUCH * sum(best.fit.misfits[s] for s in signals)
+    return (paid or takes_much) and bears_out(problem, best.fit, larger.fit, signals)
 
 
 def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:

@@ -22,7 +22,7 @@ def temperatures_of(fit: Polished) -> dict[Signal, float]:
     }
 
 
-def coolest(fits: Iterable[Polished]) -> dict[Signal, float]:
+def _coolest(fits: Iterable[Polished]) -> dict[Signal, float]:
     """Mean square that the best explanation of each signal leaves."""
     found: dict[Signal, float] = {}
     for fit in fits:
@@ -35,7 +35,7 @@ def reached(
     warm: Mapping[Signal, float], fits: Iterable[Polished]
 ) -> dict[Signal, float]:
     """How loud noises that were taken so warm turn out, by the best of some fits."""
-    found = {signal: warm[signal] * share for signal, share in coolest(fits).items()}
+    found = {signal: warm[signal] * share for signal, share in _coolest(fits).items()}
     return {signal: share if share > HOT else 1.0 for signal, share in found.items()}
 
 

@@ -35,7 +35,7 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
     signal
         What is predicted.
     noise
-        One sigma of a sample of it. [SI]
+        One sigma of it, as a mean of many samples has it. [SI]
     """
     measured = course.column(signal.value)
     good = np.isfinite(measured)
