@@ -119,6 +119,7 @@ def joined(courses: Sequence[Course]) -> Course:
             slice(end - len(course), end)
             for course, end in zip(courses, ends, strict=True)
         ),
+        start=courses[0].start,
     )
 
 

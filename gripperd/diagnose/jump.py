@@ -36,7 +36,7 @@ class Jump(InSensor):
     size: float = amplitude(unit="N", scale=10.0, low=-1e4, high=1e4)
     """Reading minus truth after the jump. [N]"""
     at: float = 0.0
-    """[s]"""
+    """Since the start of the recording. [s]"""
 
     @property
     def signal(self) -> Signal:
@@ -63,7 +63,10 @@ def jump(found: Found, best: Contest) -> Jump | None:
     problem, named = found.problem, best.best.candidates
     if not any(Signal.FORCE in acts_on(problem, one) for one in named):
         return None
-    spans = sorted((float(c.time[0]), float(c.time[-1])) for c in problem.courses)
+    spans = sorted(
+        (float(c.time[0] - c.start), float(c.time[-1] - c.start))
+        for c in problem.courses
+    )
     moments = [(end + start) / 2 for (_, end), (start, _) in pairwise(spans)]
     start = found.null.fit.point
     listed = [Candidate(Jump.name, Jump(size=10.0, at=moment)) for moment in moments]

@@ -23,9 +23,9 @@ def signature(
         nearest = ", ".join(map(plain, best.best.names))
         words.append(f"nearest known effects: {nearest}")
     if slip:
-        words.append(
-            f"force: jumps by {slip.size:+.1f} N at {slip.at:.0f} s, and stays"
-        )
+        # By the clock of the file, as everything else that is told of it.
+        at = problem.courses[0].start + slip.at
+        words.append(f"force: jumps by {slip.size:+.1f} N at {at:.0f} s, and stays")
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)

@@ -8,7 +8,16 @@ from gripperd.diagnose.rivalry import contest
 from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
-from tests.diagnose.small import MODEL, Hidden, Moment, nothing, pinned, recording
+from tests.diagnose.small import (
+    MODEL,
+    Hidden,
+    Moment,
+    altered,
+    moments,
+    nothing,
+    pinned,
+    recording,
+)
 
 OPEN = ("muscle.diameter", "zero.force")
 LISTED = (Candidate("force_sensor_drift", ForceSensorDrift(rate=0.05)),)
@@ -38,6 +47,17 @@ def test_a_mount_that_slipped_once_is_no_drift() -> None:
         for t in (SLIPPED_AT, seen.at)
     )
     assert before == after
+
+
+def test_it_slipped_as_well_where_the_clock_began_long_ago() -> None:
+    late = altered(recording(_slipped), moments(), "time", lambda time: time + 1.7e9)
+    problem = pinned(problem_of(late, MODEL, {}), *OPEN)
+    found = search(problem, LISTED, np.random.default_rng(0))
+    seen, known = jump(found, contest(found, LISTED)), _seen(_slipped)[1]
+    assert seen is not None
+    assert known is not None
+    assert seen.at == pytest.approx(known.at)
+    assert seen.size == pytest.approx(known.size, rel=1e-3)
 
 
 def test_a_drift_is_no_jump() -> None:
