@@ -11,6 +11,7 @@ from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.document import document
 from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.holdout import split
+from gripperd.diagnose.jump import Jump
 from gripperd.diagnose.recording import Recording
 from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
@@ -339,3 +340,16 @@ def test_where_nothing_is_missing_nothing_is_told_to_be_near_or_next(
     assert found.contest.best.candidates
     text = document(found, model="m", program="p")
     assert (text["effects"], text["nearest"], text["next_experiment"]) == ([], [], None)
+
+
+def test_where_something_slipped_it_is_never_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Less is left than would be seen, but a jump explains it better than a name."""
+    monkeypatch.setattr(Gap, "is_open", False)
+    slip = Jump(size=-4.0, at=200.0)
+    monkeypatch.setattr("gripperd.diagnose.diagnosis.jump", lambda *_: slip)
+    weak = recording(threshold(6.0), noise=0.1)
+    found = diagnose(weak, MODEL, {}, {name: EFFECTS[name] for name in FEW})
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert "force: jumps by -4.0 N at 200 s, and stays" in found.signature

@@ -53,6 +53,20 @@ def test_jaws_in_every_sweep_leave_it_a_fifth(blank: Problem, parts: Split) -> N
     assert split(replace(blank, courses=opened)).runs == parts.runs
 
 
+def test_of_three_sweeps_of_the_jaws_one_judges_them(
+    blank: Problem, parts: Split
+) -> None:
+    chosen = [one.run for one in blank.courses if one.run not in parts.runs][1:4]
+    courses = tuple(
+        replace(one, measured={**one.measured, "opening": 0.05 + 0 * one.time})
+        if one.run in chosen
+        else one
+        for one in blank.courses
+    )
+    found = split(replace(blank, courses=courses)).runs
+    assert set(found) == {*parts.runs, chosen[-1]}
+
+
 def test_the_first_sweep_stays_for_only_it_shows_a_first_inflation(
     blank: Problem,
 ) -> None:
