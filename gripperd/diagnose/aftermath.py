@@ -1,15 +1,18 @@
-"""What goes on after a step while the command rests, and what explains it."""
+"""What goes on after a step, far below what a model misses, and what explains it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
+from gripperd.diagnose.answer import answered, answering
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.crossing import bears_out
 from gripperd.diagnose.design import Member, design
-from gripperd.diagnose.dwell import drifted, dwelling, misfit
+from gripperd.diagnose.dwell import dwelling, misfit, stilled
 from gripperd.diagnose.finalists import leaders
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
+from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
 from gripperd.diagnose.price import LEAST_MORE, MUCH, is_fault
 from gripperd.diagnose.problem import Problem
@@ -18,10 +21,29 @@ from gripperd.diagnose.rivalry import SURE, Contest, removed
 from gripperd.diagnose.temperature import cooled
 from gripperd.model.effect import Signal
 
-LASTING = frozenset({"creep", "force_sensor_drift"})
-"""Effects by which a force goes on changing while the command rests."""
 NEXT = 2
 """Effects of another kind that are fitted in full."""
+
+
+class Aftermath(NamedTuple):
+    """What a signal does after a step, and what may explain it."""
+
+    signal: Signal
+    causes: frozenset[str]
+    within: Callable[[Problem, Point, Noise], Problem]
+    """Gives the problem with the stretches in which it shows."""
+    explained: Callable[[Problem, Point, Point], bool]
+    """Whether enough of it is gone from a point to the next."""
+
+
+AFTERMATHS = (
+    Aftermath(
+        Signal.FORCE, frozenset({"creep", "force_sensor_drift"}), dwelling, stilled
+    ),
+    Aftermath(
+        Signal.PRESSURE, frozenset({"valve_lag", "channel_delay"}), answering, answered
+    ),
+)
 
 
 def with_aftermath(
@@ -30,10 +52,10 @@ def with_aftermath(
     listed: Sequence[Candidate],
     noises: Mapping[Signal, Noise],
 ) -> tuple[Found, Contest]:
-    """Add the effect by which the force goes on changing after a step.
+    """Add the effects by which pressure and force go on changing after a step.
 
-    Far above the noise the search does not hear it: it is small beside the level that
-    the model misses. But that level stays the same while the command rests. An effect
+    Far above the noise the search does not hear them: they are small beside the level
+    that the model misses. But that level stays while the command rests. An effect
     that takes much of what the levels are off goes before it, and is told only with it.
     What was told before and is idle beside them is told no more.
 
@@ -46,25 +68,38 @@ def with_aftermath(
     noises
         Of each signal, as identified. [SI]
     """
+    for kind in AFTERMATHS:
+        found, best = _with(kind, found, best, listed, noises)
+    return found, best
+
+
+def _with(
+    kind: Aftermath,
+    found: Found,
+    best: Contest,
+    listed: Sequence[Candidate],
+    noises: Mapping[Signal, Noise],
+) -> tuple[Found, Contest]:
     here = best.best
-    if found.problem.temperature([Signal.FORCE]) <= 1 or not here.candidates:
+    if found.problem.temperature([kind.signal]) <= 1 or not here.candidates:
         return found, best
     point = here.fit.point
     # Tolerances that are too tight are one finding, of which nothing can be dropped.
     if point.looser:
         return found, best
-    problem = dwelling(cooled(found.problem, here.fit), point, noises[Signal.FORCE])
-    if not problem.dwells:
+    cool = cooled(found.problem, here.fit)
+    problem = kind.within(cool, point, noises[kind.signal])
+    if problem is cool:
         return found, best
     here = Rival(here.candidates, polished(problem, point))
     tried = [here]
-    lasting, others = _grown(problem, here, listed)
+    lasting, others = _grown(kind, problem, here, listed)
     # Once: two names in all are as many as a measured muscle has needed.
-    if others and _takes_its_share(problem, here, others[0]):
+    if others and _takes_its_share(kind, problem, here, others[0]):
         here = others[0]
         tried.append(here)
-        lasting, others = _grown(problem, here, listed)
-    going = [rival for rival in lasting if _goes_on(problem, here, rival)]
+        lasting, others = _grown(kind, problem, here, listed)
+    going = [rival for rival in lasting if _accounts(kind, problem, here, rival)]
     if not going:
         return found, best
     told, without = _needed(problem, going[0], found.threshold)
@@ -87,13 +122,13 @@ def with_aftermath(
 
 
 def _grown(
-    problem: Problem, here: Rival, listed: Sequence[Candidate]
+    kind: Aftermath, problem: Problem, here: Rival, listed: Sequence[Candidate]
 ) -> tuple[list[Rival], list[Rival]]:
-    """Give it with each lasting effect that it lacks, and with the leading others."""
+    """Give it with each cause that it lacks, and with the leading others."""
     around = design(problem, here.fit.point, listed)
     ranked = leaders({one: around.fit(one).evidence for one in around.members})
-    lasting = [one for one in ranked if one.candidate.name in LASTING]
-    others = [one for one in ranked if one.candidate.name not in LASTING]
+    lasting = [one for one in ranked if one.candidate.name in kind.causes]
+    others = [one for one in ranked if one.candidate.name not in kind.causes]
     return _fitted(problem, here, lasting), _fitted(problem, here, others[:NEXT])
 
 
@@ -109,32 +144,32 @@ def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival
     return sorted(found, key=lambda rival: -rival.evidence)
 
 
-def _goes_on(problem: Problem, here: Rival, larger: Rival) -> bool:
-    """Whether the dwells tell an effect, and much of their drift is gone with it.
+def _accounts(kind: Aftermath, problem: Problem, here: Rival, larger: Rival) -> bool:
+    """Whether the dwells tell a cause, and much of what they do is gone with it.
 
     One that has but the levels to explain lets the dwells drift as before, or more.
     """
     points = here.fit.point, larger.fit.point
-    before, after = (misfit(problem, point) for point in points)
+    before, after = (misfit(problem, point, kind.signal) for point in points)
     if min(0.5 * (before - after), larger.evidence - here.evidence) <= LEAST_MORE:
         return False
-    before, after = (drifted(problem, point) for point in points)
-    takes_much = before - after > MUCH * before
     return (
-        takes_much
+        kind.explained(problem, *points)
         and is_fault(problem, larger)
-        and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+        and bears_out(problem, here.fit, larger.fit, [kind.signal])
     )
 
 
-def _takes_its_share(problem: Problem, here: Rival, larger: Rival) -> bool:
-    """Whether an effect takes much of what is left of the force beside the dwells."""
+def _takes_its_share(
+    kind: Aftermath, problem: Problem, here: Rival, larger: Rival
+) -> bool:
+    """Whether an effect takes much of what is left of the signal beside the dwells."""
     before, after = (
-        one.fit.misfits[Signal.FORCE] - misfit(problem, one.fit.point)
+        one.fit.misfits[kind.signal] - misfit(problem, one.fit.point, kind.signal)
         for one in (here, larger)
     )
     takes_much = before - after > MUCH * before
-    return takes_much and bears_out(problem, here.fit, larger.fit, [Signal.FORCE])
+    return takes_much and bears_out(problem, here.fit, larger.fit, [kind.signal])
 
 
 def _needed(

@@ -16,6 +16,7 @@ from gripperd.diagnose.drift import Quiet, hold
 from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
+from gripperd.diagnose.price import MUCH
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.quiet import HELD, highest
 from gripperd.diagnose.whitening import whitened
@@ -62,14 +63,28 @@ def dwelling(problem: Problem, point: Point, noise: Noise) -> Problem:
     return replace(problem, dwells=tuple(one._replace(noise=louder) for one in dwells))
 
 
-def misfit(problem: Problem, point: Point) -> float:
-    """Chi² of the dwells, each about a level of its own."""
+def misfit(problem: Problem, point: Point, signal: Signal = Signal.FORCE) -> float:
+    """Chi² of the dwells of a signal, each about a level of its own."""
     residuals = problem.residuals(point)
     total = 0.0
-    for index in _places(problem):
+    for index in dwells_of(problem, signal):
         white = problem.white([residuals[index]], index)
         total += float(np.sum(white**2))
     return total
+
+
+def stilled(problem: Problem, before: Point, after: Point) -> bool:
+    """Whether much of the way in which the force drifts in the dwells is gone.
+
+    Parameters
+    ----------
+    problem
+        With dwells.
+    before, after
+        Without and with a cause of the drift.
+    """
+    drift, left = (drifted(problem, point) for point in (before, after))
+    return drift - left > MUCH * drift
 
 
 def drifted(problem: Problem, point: Point) -> float:
@@ -97,14 +112,18 @@ def drifted(problem: Problem, point: Point) -> float:
 def _within(problem: Problem, point: Point) -> Iterator[Quiet]:
     """What is left in each dwell, beside its level and the ways of creeping."""
     residuals = problem.residuals(point)
-    for index in _places(problem):
+    for index in dwells_of(problem, Signal.FORCE):
         yield hold(problem.times[index], residuals[index], creeps=True)
 
 
-def _places(problem: Problem) -> range:
-    """Where the dwells are among the blocks: last."""
-    count = len(problem.blocks)
-    return range(count - len(problem.dwells), count)
+def dwells_of(problem: Problem, signal: Signal) -> list[int]:
+    """Give the places of the dwells of a signal among the blocks: last."""
+    first = len(problem.blocks) - len(problem.dwells)
+    return [
+        first + place
+        for place, dwell in enumerate(problem.dwells)
+        if dwell.signal is signal
+    ]
 
 
 def _dwells(problem: Problem) -> Iterator[Block]:
@@ -114,7 +133,7 @@ def _dwells(problem: Problem) -> Iterator[Block]:
         if block.signal is not Signal.FORCE:
             continue
         course = problem.courses[block.course]
-        for stretch in _stretches(course):
+        for stretch in stretches(course):
             good = block.good & stretch & (course.still >= SETTLED)
             if good.sum() < SAMPLES or np.ptp(course.time[good]) < SHORTEST:
                 continue
@@ -130,8 +149,8 @@ def _is_still(course: Course, good: Mask, top: float) -> bool:
     return moved < STILL and pressed < HELD * top
 
 
-def _stretches(course: Course) -> Iterator[Mask]:
-    """Samples from one command to the next."""
+def stretches(course: Course) -> Iterator[Mask]:
+    """Give the samples from each command to the next."""
     commands = np.cumsum(np.diff(course.still, prepend=0.0) < 0)
     for number in range(1, int(commands.max(initial=0)) + 1):
         yield commands == number

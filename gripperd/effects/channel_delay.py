@@ -13,11 +13,9 @@ import numpy as np
 
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InSensor
+from gripperd.model.memory import KEPT, delay
 from gripperd.model.parameter import amplitude, choice
 from gripperd.model.track import Array, Track
-
-KEPT = 1024
-"""Samples remembered from call to call: one second at 1 kHz."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +23,6 @@ class ChannelDelay(InSensor):
     r"""A reading is what was some time ago: :math:`y_r(t) = y(t - T)`.
 
     Between samples on a straight line; before the first sample, the first value.
-    Given sample by sample, it looks back over the last :data:`KEPT` of them.
     """
 
     name: ClassVar[str] = "channel_delay"
@@ -55,11 +52,7 @@ class ChannelDelay(InSensor):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Late reading. [SI]."""
-        known = memory[:, ~np.isnan(memory[0])]
-        past = np.hstack([known, np.stack([track.time, value])])
-        last = past[:, -KEPT:]
-        memory[:, KEPT - last.shape[1] :] = last
-        return np.interp(track.time - self.delay, *past)
+        return delay(value, track.time, self.delay, memory)
 
     def truth(self, reading: Array, track: Track) -> Array:
         """What was there at the time of each sample; at the end, the last. [SI]."""

@@ -9,20 +9,21 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.kinds import InValve
-from gripperd.model.memory import begin, lag
+from gripperd.model.memory import KEPT, delay, lag
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
 
 @dataclass(frozen=True, slots=True)
 class ValveLag(InValve):
-    r"""Two lags in a row, of muscle and tube, that fill and exhaust at their own pace.
+    r"""A dead time, then a lag that fills and exhausts at its own pace.
 
-    .. math:: p = p_0 + a (p_l - p_0), \quad \tau \dot p_m = p_0 - p_m, \quad
-              k \tau \dot p_l = p_m - p_l
+    .. math:: p = p_0 + a (p_l - p_0), \quad \tau \dot p_l = p_0(t - T) - p_l
 
-    A tube holds the pressure back for a while, as a dead time does.
+    A spool that breaks loose and a tube hold the pressure back before it moves.
     """
 
     name: ClassVar[str] = "valve_lag"
@@ -41,19 +42,16 @@ class ValveLag(InValve):
     """Time constant of filling. [s]"""
     exhaust: float = shape(unit=None, starts=(1.0, 2.0), low=0.2, high=5.0)
     """Time constant of exhaust over that of filling. [-]"""
-
-    tube: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
-    """Time constants of the second lag over those of the first. [-]"""
+    dead_time: float = shape(unit="ms", starts=(0.0, 0.03), low=0.0, high=1.0)
+    """Time before anything follows. [s]"""
 
     def rest(self) -> Array:
-        """Two lags that begin settled."""
-        return begin(2)
+        """A lag that begins settled, then the past of a delay; shape (2, 1 + KEPT)."""
+        return np.full((2, 1 + KEPT), np.nan)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pressure that has come so far. [Pa]."""
-        late = value
-        for place, time in enumerate((self.time, self.tube * self.time)):
-            if time > 0:
-                state = memory[place : place + 1]
-                late = lag(late, track.step, time, time * self.exhaust, state)
+        late = delay(value, track.time, self.dead_time, memory[:, 1:])
+        exhaust = self.time * self.exhaust
+        late = lag(late, track.step, self.time, exhaust, memory[0, :1])
         return value + self.share * (late - value)

@@ -1,4 +1,4 @@
-"""Operators that remember: lag, play and stop.
+"""Operators that remember: lag, delay, play and stop.
 
 Each walks one sequence and carries its state in an array that the caller keeps, so
 that a run may be given whole or sample by sample with the same result. A state of NaN
@@ -21,6 +21,9 @@ from gripperd.model.compiled import compiled
 
 Array: TypeAlias = NDArray[np.float64]
 
+KEPT = 1024
+"""Samples that a delay remembers from call to call: one second at 1 kHz."""
+
 
 def begin(size: int = 1) -> Array:
     """State of operators that have not seen a sample yet."""
@@ -42,6 +45,27 @@ def lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> A
         What has followed so far, shape ``(1,)``; it is moved on.
     """
     return compiled(_lag)(signal, step, rise, fall, state)
+
+
+def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
+    """What a signal was some time ago, between samples on a straight line.
+
+    Before the first sample it was the first value. Given sample by sample, it looks
+    back over the last :data:`KEPT` of them.
+
+    Parameters
+    ----------
+    signal, time
+        What comes late, and when it was; shape ``(n,)``. [any, s]
+    late
+        By how much. [s]
+    state
+        Times and values of the past, shape ``(2, KEPT)``; it is moved on.
+    """
+    past = np.hstack([state[:, ~np.isnan(state[0])], np.stack([time, signal])])
+    last = past[:, -KEPT:]
+    state[:, KEPT - last.shape[1] :] = last
+    return np.interp(time - late, *past)
 
 
 def play(signal: Array, radius: float, state: Array) -> Array:

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from gripperd.effects.channel_delay import KEPT, ChannelDelay
+from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.model import Muscle
 from gripperd.model.effect import Signal
+from gripperd.model.memory import KEPT
 from tests.effects.tracks import samples, track_of
 
 TIME = np.arange(0.0, 4.0, 0.02)
