@@ -80,6 +80,7 @@ def marks(answers: Sequence[Answer]) -> list[Mark]:
         _mark("named single: after <= 1.15 stated floor", 0.90, closed, floored),
         _mark("  the same against the sensors' floor", 0.90, closed_truly, floored),
         _mark("all: worse than recalibrated constants", -0.02, worsened, answers),
+        _mark("  the same of the signal that is spoilt", -0.02, spoilt, answers),
         _mark("all: error", -0.0, lambda one: bool(one.error), answers),
     ]
 
@@ -154,6 +155,12 @@ def closed_truly(one: Answer) -> bool:
 def worsened(one: Answer) -> bool:
     """Whether any signal is worse off than with better constants alone."""
     return any(gap.after > WORSE * gap.recalibrated for gap in one.gaps.values())
+
+
+def spoilt(one: Answer) -> bool:
+    """Whether the signal that the hidden effect spoils is worse off so."""
+    left = residue(one)
+    return left is not None and left.after > WORSE * left.recalibrated
 
 
 def worst(singles: Sequence[Answer]) -> Mark:

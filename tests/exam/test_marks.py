@@ -1,6 +1,7 @@
 """The examiner is examined: what counts as right, and how sure a share is."""
 
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 
@@ -13,6 +14,7 @@ from tests.exam.marks import (
     confident,
     exact,
     misled,
+    spoilt,
     staged,
     within,
     worsened,
@@ -88,6 +90,18 @@ def test_worse_is_more_than_one_percent(after: float, worse: bool) -> None:
     one = answer("named", "creep")
     gaps = {"force": Residue(20.0, 10.0, after, 5.0, 5.0)}
     assert worsened(Answer(one.question, gaps=gaps)) is worse
+
+
+@pytest.mark.parametrize(("signal", "worse"), [("force", True), ("grip", False)])
+def test_another_signal_that_is_worse_is_not_the_spoilt_one(
+    signal: str, worse: bool
+) -> None:
+    one = answer("named", "creep")
+    level = Residue(20.0, 10.0, 10.0, 5.0, 5.0)
+    gaps = {"force": level, "grip": level} | {signal: replace(level, after=10.2)}
+    again = replace(one, gaps=gaps)
+    assert worsened(again)
+    assert spoilt(again) is worse
 
 
 @pytest.mark.parametrize(
