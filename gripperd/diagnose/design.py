@@ -23,6 +23,9 @@ BROKEN = 0.065
 """Largest bias of a transmitter in use, of full scale. [-]"""
 STROKE = 0.25
 """Contraction of a fluidic muscle: the full scale of its length. [-]"""
+VENTED = 0.01
+"""Pressure below that of the air that a wrong zero and noise may feign, of full scale:
+a regulator blows and does not suck. [-]"""
 SPOILT = 0.08
 """The same of its gain. [-]"""
 BIASES = ("N", "kPa")
@@ -187,17 +190,23 @@ def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:
     """Bounds of a parameter: those of physics, and of what a sensor in use may be off.
 
     SI. A transmitter that is off by more than :data:`BROKEN` is no candidate for a bias
-    any more: somebody would have noticed.
+    any more: somebody would have noticed. Nor may one of pressure read so much too high
+    that a vented muscle would have been sucked empty.
     """
     known = parameters(effect)[name]
-    scale = problem.full_scale.get(effect.signal)
+    highest = problem.highest.get(effect.signal)
+    scale = problem.full_scale.get(effect.signal, highest)
     if effect.stage is Stage.SENSOR and name == "error":
         return max(known.low, -SPOILT), min(known.high, SPOILT)
     if effect.signal is Signal.CONTRACTION and known.unit is None:
         scale = STROKE
     elif effect.stage is not Stage.SENSOR or known.unit not in BIASES or scale is None:
         return known.low, known.high
-    return max(known.low, -BROKEN * scale), min(known.high, BROKEN * scale)
+    high = min(known.high, BROKEN * scale)
+    if effect.signal is Signal.PRESSURE and name == "bias":
+        vented = problem.lowest[Signal.PRESSURE] + VENTED * scale
+        high = min(high, max(vented, 0.0))
+    return max(known.low, -BROKEN * scale), high
 
 
 class _Builder:

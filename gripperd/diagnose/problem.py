@@ -1,6 +1,6 @@
 """One recording against one model: what it says, and what is left."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -170,6 +170,24 @@ class Problem:
             top = float(np.max(np.abs(values)))
             found[block.signal] = max(found.get(block.signal, 0.0), top)
         return found
+
+    @cached_property
+    def lowest(self) -> dict[Signal, float]:
+        """Lowest level of each signal that was measured, explained or not. [SI]."""
+        return {signal: float(np.min(values)) for signal, values in self._levels()}
+
+    @cached_property
+    def highest(self) -> dict[Signal, float]:
+        """Highest magnitude of the same. [SI]."""
+        return {s: float(np.max(np.abs(values))) for s, values in self._levels()}
+
+    def _levels(self) -> Iterator[tuple[Signal, Array]]:
+        for signal in Signal:
+            levels = [course.level(signal.value) for course in self.courses]
+            known = np.concatenate(levels)
+            known = known[np.isfinite(known)]
+            if known.size:
+                yield signal, known
 
     def residuals(self, point: Point) -> list[Array]:
         """Measured minus expected, block by block. [SI]."""

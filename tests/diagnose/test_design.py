@@ -10,19 +10,24 @@ from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.response import responses
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
+from gripperd.effects.ambient_pressure import AmbientPressure
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.length_datum import LengthDatum
+from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.viscous_friction import ViscousFriction
 from gripperd.model.effect import Signal
 from tests.diagnose.small import (
     LINKAGE,
     MODEL,
+    altered,
     covariance,
+    nothing,
     recording,
     rubbing,
     with_grip,
+    without,
 )
 
 COLUMNS = frozenset({"time", "current", "pressure", "contraction", "force"})
@@ -180,3 +185,43 @@ def test_a_wrong_zero_of_contraction_is_bounded_by_the_stroke(blank: Problem) ->
 def test_how_late_the_contraction_is_read_is_no_length(blank: Problem) -> None:
     late = ChannelDelay(delay=0.1, channel=Signal.CONTRACTION)
     assert limits(blank, late, "delay") == (0.0, 1.0)
+
+
+def test_no_muscle_was_sucked_empty(blank: Problem) -> None:
+    bias = PressureSensorBias(bias=5e3)
+    low, high = limits(blank, bias, "bias")
+    top = blank.highest[Signal.PRESSURE]
+    # Its muscle is vented, where the transmitter reads next to nothing.
+    assert abs(blank.lowest[Signal.PRESSURE]) < 0.005 * top
+    assert 0.0 < high < 0.015 * top
+    # 6.5 % of full scale.
+    assert low == pytest.approx(-0.065 * top, rel=0.02)
+
+
+def _shifted(kilopascals: float) -> Problem:
+    """A problem with every pressure read so much too high."""
+    plain = recording(nothing)
+    names = [run.name for run in plain.runs]
+    shifted = altered(plain, names, "pressure", lambda read: read + 1e3 * kilopascals)
+    return problem_of(shifted, MODEL, {})
+
+
+def test_the_weather_is_on_top_of_the_zero() -> None:
+    # What its zero leaves of the error is not what is read of a vented muscle.
+    low = _shifted(-4.0)
+    assert limits(low, PressureSensorBias(bias=5e3), "bias")[1] < 2e3
+    assert limits(low, AmbientPressure(share=1.0), "zero") == (-2e3, 2e3)
+
+
+def test_a_pressure_that_nothing_explains_has_a_full_scale(blank: Problem) -> None:
+    unasked = problem_of(without(recording(nothing), "current"), MODEL, {})
+    assert Signal.PRESSURE not in unasked.full_scale
+    for problem in (unasked, blank):
+        low, _ = limits(problem, PressureSensorBias(bias=5e3), "bias")
+        assert low == pytest.approx(-0.065 * 500e3, rel=0.02)
+
+
+def test_a_muscle_that_is_never_vented_tells_nothing_of_the_zero() -> None:
+    problem = _shifted(60.0)
+    _, high = limits(problem, PressureSensorBias(bias=5e3), "bias")
+    assert high == pytest.approx(0.065 * problem.full_scale[Signal.PRESSURE])
