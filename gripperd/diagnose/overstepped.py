@@ -1,17 +1,25 @@
 """A constant that stays at the edge of its tolerance and would leave it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.polish import polished
 from gripperd.diagnose.preference import BORE, at_edge
 from gripperd.diagnose.price import LEAST_MORE
+from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import Contest
 
 KIN = 0.5
 """Share of the gain from which another constant could be the wrong one. [-]"""
+FAR: Mapping[str, float] = {
+    "muscle.rest_length": 0.05, "muscle.diameter": 0.25, "muscle.braid_angle": 0.25,
+}  # fmt: skip
+"""Share of a size by which nobody mistakes it with a rule or a protractor: a muscle
+sold as 10 mm has a braid of 12 mm, and 296 mm were called 300 mm. [-]"""
 
 
 def with_overstepped(
@@ -38,6 +46,7 @@ def with_overstepped(
         for one in listed
         if one.name in at_edge(problem, here)
     ]
+    freed = [one for one in freed if not _is_far_off(problem, one)]
     most = max((one.evidence - here.evidence for one in freed), default=0.0)
     if most <= LEAST_MORE:
         return best
@@ -49,3 +58,12 @@ def with_overstepped(
         (*best.without, here),
         (*best.rivals, tuple(rival for rival in kin if rival is not told)),
     )
+
+
+def _is_far_off(problem: Problem, freed: Rival) -> bool:
+    """Whether a size is let go so far that it only bends to the misfit."""
+    index = freed.candidates[-1].constant
+    assert index is not None
+    constant, shift = problem.constants[index], float(freed.fit.point.shifts[index])
+    far = FAR.get(constant.path, np.inf)
+    return abs(shift * constant.sigma) > far * abs(constant.nominal)

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose import overstepped
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.overstepped import with_overstepped
@@ -51,3 +52,12 @@ def test_near_the_noise_nothing_is_let_go() -> None:
     found, best = _told(0.0208, threshold(60.0))
     cool = replace(found, problem=replace(found.problem, temperatures={}))
     assert with_overstepped(cool, best, LISTED) is best
+
+
+def test_a_size_that_nobody_mistakes_so_far_is_not_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found, best = _told(0.0208, restless(threshold(60.0)))
+    # Were a muscle of 20 mm never taken for one of 20.8 mm.
+    monkeypatch.setattr(overstepped, "FAR", {"muscle.diameter": 0.03})
+    assert BORE not in with_overstepped(found, best, LISTED).best.names
