@@ -83,6 +83,8 @@ def _with(
     here = best.best
     if found.problem.temperature([kind.signal]) <= 1 or not here.candidates:
         return found, best
+    if kind.causes & set(here.names):
+        return found, best
     point = here.fit.point
     # Tolerances that are too tight are one finding, of which nothing can be dropped.
     if point.looser:
