@@ -30,6 +30,7 @@ SAME: Mapping[str, str] = MappingProxyType({
 """Constants that are wrong in just the way in which an effect shows."""
 BASIS: Mapping[str, str] = MappingProxyType({
     "nonlinear_elasticity": "rubber_elasticity",
+    "pressure_friction": "braid_friction",
 })  # fmt: skip
 """What an effect departs from: without it there is nothing to depart from."""
 WRONG = "parameter:"
