@@ -126,13 +126,14 @@ def test_amplitudes_are_what_an_effect_is_proportional_to() -> None:
     [
         ("force_sensor_bias", True),
         ("pressure_sensor_gain", True),
+        ("force_sensor_drift", True),
         ("valve_offset", True),
         ("creep", False),
         ("threshold_pressure", False),
         ("coulomb_friction", False),
     ],
 )
-def test_offsets_factors_and_rates_have_but_one_form(name: str, exact: bool) -> None:
+def test_what_a_sensor_does_has_no_form_but_ours(name: str, exact: bool) -> None:
     assert is_exact(Candidate(name, forms(EFFECTS[name])[0])) is exact
 
 
