@@ -30,6 +30,7 @@ SAME: Mapping[str, str] = MappingProxyType({
 """Constants that are wrong in just the way in which an effect shows."""
 BASIS: Mapping[str, str] = MappingProxyType({
     "nonlinear_elasticity": "rubber_elasticity",
+    "pressure_friction": "braid_friction",
 })  # fmt: skip
 """What an effect departs from: without it there is nothing to depart from."""
 WRONG = "parameter:"
@@ -129,15 +130,15 @@ def _wrong_constants(
 
 
 def is_exact(candidate: Candidate) -> bool:
-    """Tell whether nature leaves it but one form: an offset, a factor, a rate."""
+    """Tell whether nature leaves it no form but ours: an offset, a factor, a drift."""
     effect = candidate.effect
     if effect is None:
         return False
     known = parameters(effect)
+    if effect.stage is Stage.SENSOR:
+        return True
     plain = not any(one.starts for one in known.values())
-    return (plain and (effect.stage is Stage.SENSOR or len(known) == 0)) or (
-        plain and effect.name in LINEAR
-    )
+    return plain and (not known or effect.name in LINEAR)
 
 
 def forms(kind: type[Effect]) -> list[Effect]:

@@ -36,6 +36,7 @@ from gripperd.diagnose.next_experiment import Proposal, proposal
 from gripperd.diagnose.overstepped import with_overstepped
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
+from gripperd.diagnose.price import acts_on
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Contradiction, Recording
 from gripperd.diagnose.rest_length import length_is_open, with_other_length
@@ -199,7 +200,9 @@ def _told(
     main = _main(best, judged)
     # That tolerances are too tight is one finding, however many constants it moves.
     effects = 1 if nearest.looser else len(entries)
-    gap = judged[main] if main else None
+    # What an effect does not touch says nothing of it.
+    touched = {s for one in best.best.candidates for s in acts_on(train, one)}
+    gap = judged[main] if main in touched else None
     if slip or (gap and not gap.confirms(effects)):
         is_open = bool(slip) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)

@@ -93,15 +93,24 @@ def worth(
 def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:
     """Whether an addition mends no form before it: what it closes stays closed.
 
-    One that has not paid its price must keep most of that, and leave but noise.
+    One that has not paid its price must keep most of that, and leave but noise. Known
+    to look like one that bends, it must keep most of it as well.
     """
     further = best.fit.cost - larger.fit.cost
     bending = [name for name in forms(best) if name in larger.names]
     before, after = (bent(problem, one, bending) for one in (best, larger))
     least = LEAST_OWN if bending else 2 * LEAST_MORE
-    if before - after <= max(least, (MENDED if paid else OWN) * further):
+    kept = MENDED if paid and not _looks_like(best, larger, bending) else OWN
+    if before - after <= max(least, kept * further):
         return False
     return paid or after - larger.fit.samples < (2 * larger.fit.samples) ** 0.5
+
+
+def _looks_like(best: Rival, larger: Rival, bending: Collection[str]) -> bool:
+    """Whether anything new is a known double of what bends."""
+    old = [one for one in best.candidates if one.name in bending]
+    new = [one for one in larger.candidates if one.name not in best.names]
+    return any(a.name in b.doubles or b.name in a.doubles for a in old for b in new)
 
 
 def _change(problem: Problem, one: Point, other: Point) -> float:

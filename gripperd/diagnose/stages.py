@@ -13,9 +13,9 @@ import numpy as np
 from gripperd.diagnose.course import Course
 from gripperd.diagnose.explanation import Explanation
 from gripperd.diagnose.runs import Runs
-from gripperd.diagnose.travel import leaning, travel
+from gripperd.diagnose.travel import leaning
 from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
-from gripperd.model.memory import begin, lag
+from gripperd.model.memory import begin, lag, stop
 from gripperd.model.track import Array, Track
 
 INPUTS: Mapping[Signal, tuple[str, ...]] = {
@@ -25,8 +25,8 @@ INPUTS: Mapping[Signal, tuple[str, ...]] = {
     Signal.GRIP: ("contraction", "grip"),
 }
 """Columns a stage needs, with the one it predicts."""
-STRETCHED = 4e-4
-"""Contraction inside a mount that counts as travel: no noise moves it. [-]"""
+TURNED = 4e-4
+"""Half the way back, of a muscle inside a mount, over which its friction turns. [-]"""
 
 
 def predictable(course: Course) -> tuple[Signal, ...]:
@@ -100,16 +100,15 @@ def _strained(explanation: Explanation, track: Runs) -> Runs:
     if not any(np.any(one) for one in hidden):
         return track
     contraction = np.asarray(track.contraction + sum(hidden))
-    turning = track.each(_turning, contraction)
-    direction = np.where(turning == 0, track.direction, turning)
+    turned = track.each(_turned, contraction) - track.each(_turned, track.contraction)
+    direction = np.clip(track.direction + turned, -1.0, 1.0)
     return replace(track, contraction=contraction, direction=direction)
 
 
-def _turning(contraction: Array, run: Track) -> Array:
-    """Travel of a muscle that is shorter than measured; 0 where it is not."""
-    if np.array_equal(contraction, run.contraction, equal_nan=True):
-        return np.zeros_like(contraction)
-    return travel(contraction, STRETCHED)
+def _turned(contraction: Array, run: Track) -> Array:
+    """Sign of friction that turns with the way gone, and so with the stretch."""
+    start = contraction[:1] - TURNED * run.direction[:1]
+    return stop(contraction, TURNED, start) / TURNED
 
 
 def _along(effect: Effect, value: Array, track: Runs) -> Array:

@@ -5,10 +5,15 @@ References
 .. [1] B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, "A survey of models,
        analysis tools and compensation methods for the control of machines with
        friction", Automatica 30(7), 1083-1138, 1994.
+.. [2] S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding dry,
+       boundary and mixed lubricated contacts", Tribology International 40(4), 580-587,
+       2007.
 """
 
 from dataclasses import dataclass
 from typing import ClassVar
+
+import numpy as np
 
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
@@ -24,7 +29,8 @@ class CoulombFriction(InMuscle):
     """A constant force against the direction of travel.
 
     After a reversal it turns round over a distance too short to be called hysteresis
-    (Dahl's model with exponent 1).
+    (Dahl's model with exponent 1). What creeps rubs less: the force grows as the
+    hyperbolic tangent of a slow rate [2]_.
     """
 
     name: ClassVar[str] = "coulomb_friction"
@@ -46,6 +52,8 @@ class CoulombFriction(InMuscle):
     """Of the force. [N]"""
     distance: float = shape(unit=None, starts=(0.0, 1e-3), low=0.0, high=2e-3)
     """Contraction over which it turns round. [-]"""
+    slip: float = shape(unit="per_s", starts=(0.0, 3e-3), low=0.0, high=1e-2)
+    """Rate of contraction at which three quarters of it are there. [1/s]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Against contraction while contracting, with it while extending. [N]."""
@@ -57,5 +65,10 @@ class CoulombFriction(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take off the friction of each moment. [N]."""
-        sign = dahl(track.contraction, track.direction, self.distance, memory)
+        share = np.ones_like(value)
+        # What jumps as the travel turns does so at any rate, and stays at rest.
+        if self.slip > 0 and self.distance > 0:
+            share = np.tanh(np.abs(track.rate) / self.slip)
+        way, direction = track.contraction, track.direction
+        sign = dahl(way, direction, share, self.distance, memory)
         return value - self.magnitude * sign

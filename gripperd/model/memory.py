@@ -76,14 +76,16 @@ def play(signal: Array, radius: float, state: Array) -> Array:
     return compiled(_play)(signal, radius, state)
 
 
-def dahl(signal: Array, direction: Array, distance: float, state: Array) -> Array:
+def dahl(
+    signal: Array, direction: Array, share: Array, distance: float, state: Array
+) -> Array:
     """Sign of dry friction, which turns round over a distance after a reversal.
 
-    Dahl's model with exponent 1: the sign nears the direction by ``1 - 1/e`` in each
-    distance travelled [2]_. At rest it stays. The state, shape ``(2,)``, holds the last
-    signal and the sign, which begins at the direction.
+    Dahl's model with exponent 1: the sign nears a share of the direction by ``1 - 1/e``
+    in each distance gained in it [2]_. At rest it stays. The state, shape ``(2,)``,
+    holds how far the signal came and the sign, which begins at the direction.
     """
-    return compiled(_dahl)(signal, direction, distance, state)
+    return compiled(_dahl)(signal, direction, share, distance, state)
 
 
 def stop(signal: Array, radius: float, state: Array) -> Array:
@@ -144,16 +146,22 @@ def _play(signal: Array, radius: float, state: Array) -> Array:
     return out
 
 
-def _dahl(signal: Array, direction: Array, distance: float, state: Array) -> Array:
+def _dahl(
+    signal: Array, direction: Array, share: Array, distance: float, state: Array
+) -> Array:
     out = np.empty_like(signal)
     last, sign = state[0], state[1]
     for index in range(signal.size):
+        toward = direction[index]
         if np.isnan(last):
-            last, sign = signal[index], direction[index]
-        moved = abs(signal[index] - last)
-        kept = np.exp(-moved / distance) if distance > 0 else 0.0
-        sign = direction[index] + (sign - direction[index]) * kept
-        last = signal[index]
+            last, sign = signal[index], toward
+        # Noise goes to and fro: only what is gained counts.
+        gained = (signal[index] - last) * toward
+        if gained > 0:
+            last = signal[index]
+        kept = np.exp(-max(gained, 0.0) / distance) if distance > 0 else 0.0
+        goal = share[index] * toward
+        sign = goal + (sign - goal) * kept
         out[index] = sign
     state[0], state[1] = last, sign
     return out

@@ -43,13 +43,21 @@ def test_what_needs_a_column_that_is_missing_says_which(blank: Problem) -> None:
     assert unseen["temperature_stiffness"] == "temperature not measured"
 
 
-def test_where_the_model_has_no_rubber_nothing_departs_from_it(
-    blank: Problem,
+@pytest.mark.parametrize(
+    ("further", "basis"),
+    [
+        ("nonlinear_elasticity", "rubber_elasticity"),
+        ("pressure_friction", "braid_friction"),
+    ],
+)
+def test_where_the_model_lacks_the_textbook_nothing_departs_from_it(
+    blank: Problem, further: str, basis: str
 ) -> None:
     bare = replace(blank, model=replace(MODEL, effects=()))
     listed, unseen = candidates(EFFECTS, bare, MEASURED)
-    assert "rubber_elasticity" in _names(listed)
-    assert unseen["nonlinear_elasticity"] == "rubber_elasticity is not in the model"
+    assert basis in _names(listed)
+    assert unseen[further] == f"{basis} is not in the model"
+    assert further in _names(candidates(EFFECTS, blank, MEASURED)[0])
 
 
 def test_the_valve_is_not_suspected_where_its_pressure_is_not_predicted() -> None:
@@ -118,13 +126,14 @@ def test_amplitudes_are_what_an_effect_is_proportional_to() -> None:
     [
         ("force_sensor_bias", True),
         ("pressure_sensor_gain", True),
+        ("force_sensor_drift", True),
         ("valve_offset", True),
         ("creep", False),
         ("threshold_pressure", False),
         ("coulomb_friction", False),
     ],
 )
-def test_offsets_factors_and_rates_have_but_one_form(name: str, exact: bool) -> None:
+def test_what_a_sensor_does_has_no_form_but_ours(name: str, exact: bool) -> None:
     assert is_exact(Candidate(name, forms(EFFECTS[name])[0])) is exact
 
 

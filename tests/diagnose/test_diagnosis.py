@@ -19,6 +19,7 @@ from gripperd.effects import EFFECTS
 from gripperd.errors import InputError
 from gripperd.model import Linkage
 from gripperd.model.effect import Signal
+from gripperd.model.memory import begin, play
 from gripperd.model.track import Array
 from gripperd.recordings import read_recording
 from tests.diagnose.conftest import FEW
@@ -206,6 +207,22 @@ def test_a_name_that_sweeps_left_out_do_not_bear_out_is_withdrawn() -> None:
     assert told.conclusion.share > 0.9
     assert told.verdict is Verdict.UNEXPLAINED
     assert told.gaps[Signal.FORCE].after == told.gaps[Signal.FORCE].recalibrated
+
+
+def test_what_an_effect_does_not_touch_speaks_neither_for_nor_against_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Play in a linkage, seen in two sweeps only, which cannot be spared."""
+    monkeypatch.setattr(Gap, "confirms", lambda _gap, _effects: False)
+    told = with_jaws(recording())
+    seen = {"d", "f"}
+    told = altered(told, moments().keys() - seen, "opening", lambda wide: wide * np.nan)
+    told = altered(told, seen, "opening", lambda wide: play(wide, 2e-3, begin()))
+    library = {"linkage_backlash": EFFECTS["linkage_backlash"]}
+    found = diagnose(told, replace(MODEL, linkage=LINKAGE), {}, library)
+    assert _names(found) == ["linkage_backlash"]
+    assert Signal.OPENING not in found.gaps
+    assert found.verdict is Verdict.NAMED
 
 
 def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:

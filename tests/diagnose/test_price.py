@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose import price
 from gripperd.diagnose.candidates import Candidate
 from gripperd.diagnose.price import acts_on, worth
 from gripperd.diagnose.problem import Problem
@@ -150,6 +151,32 @@ def test_what_but_bends_the_first_may_close_as_much_as_it_will() -> None:
     closed = null.fit.cost - larger.fit.cost
     assert best.fit.cost - larger.fit.cost > 0.06 * closed
     assert not worth(problem, null, best, larger, 20.0)
+
+
+@pytest.mark.parametrize(
+    ("first", "further", "worth_it"),
+    [
+        ((), (), True),
+        (("coulomb_friction",), (), False),
+        ((), ("threshold_pressure",), False),
+    ],
+)
+def test_of_what_a_known_double_closes_bending_the_first_may_not_take_most(
+    monkeypatch: pytest.MonkeyPatch,
+    first: tuple[str, ...],
+    further: tuple[str, ...],
+    *,
+    worth_it: bool,
+) -> None:
+    problem, (null, best, larger) = _fits(
+        recording(_stretches_and_rubs(40.0)), THRESHOLD, RUB
+    )
+    closed = null.fit.cost - larger.fit.cost
+    assert best.fit.cost - larger.fit.cost > 0.06 * closed
+    monkeypatch.setattr(price, "bent", lambda _, rival, names: 0.4 * rival.fit.cost)
+    monkeypatch.setattr(ThresholdPressure, "confused_with", first)
+    monkeypatch.setattr(CoulombFriction, "confused_with", further)
+    assert worth(problem, null, best, larger, 20.0) is worth_it
 
 
 @pytest.mark.parametrize(("newtons", "worth_it"), [(7.0, False), (20.0, True)])

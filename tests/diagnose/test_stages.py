@@ -11,6 +11,7 @@ from gripperd.diagnose.smoothing import Smooth
 from gripperd.diagnose.stages import passed_on, predictable, predicted
 from gripperd.diagnose.track import track_of
 from gripperd.diagnose.usable import usable
+from gripperd.effects.braid_friction import BraidFriction
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.linkage_friction import LinkageFriction
@@ -21,6 +22,7 @@ from gripperd.model.track import Array
 from tests.diagnose.small import (
     LINKAGE,
     MODEL,
+    MUSCLE,
     moments,
     recording,
     textbook,
@@ -147,6 +149,31 @@ def test_a_mount_that_stretches_hides_contraction(silent: dict[str, Course]) -> 
     assert _one(soft, course, Signal.FORCE)[3] == pytest.approx(
         _one(shorter, course, Signal.FORCE)[3], rel=1e-6
     )
+
+
+@pytest.mark.parametrize("way", [1e-7, 3e-4, 2e-3])
+def test_friction_inside_a_mount_turns_with_the_way_that_it_stretches(
+    silent: dict[str, Course], way: float
+) -> None:
+    course = silent["b"]
+    pull = np.maximum(course.level("force"), 0.0)
+    soft = MODEL.with_effect(SeriesCompliance(shortening=way / float(np.ptp(pull))))
+    bare = replace(soft, effects=soft.effects[:1] + soft.effects[2:])
+    friction = _one(soft, course, Signal.FORCE) - _one(bare, course, Signal.FORCE)
+    state = track_of(bare, course, 0).state
+    # At its highest the pull turns; half a way down half of the stretch is undone.
+    for place, share in ((50, 0.0), (75, 0.5)):
+        sign = max(1 - share * way / 4e-4, -1.0)
+        full = np.asarray(BraidFriction().magnitude(state, MUSCLE))[place]
+        assert friction[place] == pytest.approx(-sign * full, rel=0.15)
+
+
+def test_a_mount_that_stretches_turns_no_friction_where_the_length_travels(
+    silent: dict[str, Course],
+) -> None:
+    course, stiff = silent["e"], MODEL.with_effect(SeriesCompliance(shortening=1e-9))
+    change = _one(stiff, course, Signal.FORCE) - _one(MODEL, course, Signal.FORCE)
+    np.testing.assert_allclose(change, 0.0, atol=0.01)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """Dry friction of constant size."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -37,3 +39,28 @@ def test_after_a_reversal_it_turns_round_within_its_distance(muscle: Muscle) -> 
     # Dahl: the sign nears the direction by a factor e in each distance.
     signs = [1.0, 2 / np.e - 1, 2 / np.e**2 - 1, 2 * np.exp(-10) - 1]
     assert force == pytest.approx([-15 * sign for sign in signs])
+
+
+def test_noise_at_rest_does_not_turn_it(muscle: Muscle) -> None:
+    friction = CoulombFriction(15.0, distance=1e-3)
+    noise = np.tile([1e-4, -1e-4], 200).astype(np.float64)
+    direction = np.where(np.arange(400) < 2, 1.0, -1.0)
+    track = track_of(muscle, contraction=0.1 + noise, direction=direction)
+    force = friction.along(np.zeros(400), track, friction.rest())
+    # One step back of 2e-4 is all that was gained.
+    assert force[-1] == pytest.approx(-15 * (2 * np.exp(-0.2) - 1))
+
+
+def test_what_creeps_rubs_less(muscle: Muscle) -> None:
+    friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
+    rate = np.repeat(np.array([0.03, 0.0, 3e-3]), 100)
+    contraction = np.interp(np.arange(300), [0, 99, 199, 299], [0.0, 0.3, 0.3, 0.33])
+    track = track_of(muscle, contraction=contraction, rate=rate)
+    force = friction.along(np.zeros(300), track, friction.rest())
+    assert force[99:200] == pytest.approx(-15.0)
+    assert force[299] == pytest.approx(-15.0 * np.tanh(1.0))
+    back = track_of(muscle, contraction=-contraction, rate=-rate, direction=-1.0)
+    opposite = friction.along(np.zeros(300), back, friction.rest())
+    np.testing.assert_allclose(opposite, -force)
+    jumps = replace(friction, distance=0.0)
+    assert jumps.along(np.zeros(300), track, jumps.rest()) == pytest.approx(-15.0)

@@ -19,3 +19,12 @@ def test_the_error_grows_with_the_clock_whatever_the_muscle_does(
     read = np.array([106.0, 906.6, 107.2])
     assert effect.along(TRUE, track, effect.rest()) == pytest.approx(read)
     assert effect.truth(read, track) == pytest.approx(TRUE)
+
+
+def test_a_cell_that_warms_up_drifts_ever_less(muscle: Muscle) -> None:
+    effect = ForceSensorDrift(rate=0.01, settling=1 / 600)
+    track = track_of(muscle, time=np.array([0.0, 600.0, 1e6]), force=TRUE)
+    # It ends where it would be after ten minutes at its first rate.
+    read = TRUE + np.array([0.0, 6.0 * (1 - 1 / np.e), 6.0])
+    assert effect.along(TRUE, track, effect.rest()) == pytest.approx(read)
+    assert effect.truth(read, track) == pytest.approx(TRUE)
