@@ -11,8 +11,10 @@ from gripperd.diagnose.dwell import misfit
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
+from gripperd.diagnose.polish import polished
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Recording, Run
+from gripperd.diagnose.rival import Rival, added
 from gripperd.diagnose.rivalry import Contest, contest
 from gripperd.diagnose.search import search
 from gripperd.diagnose.setup import problem_of
@@ -101,6 +103,17 @@ def test_a_valve_that_waits_longer_than_any_good_one_is_told() -> None:
     (lag,) = (e for e in told.best.fit.point.effects if isinstance(e, ValveLag))
     # The second lag counts as waiting in part.
     assert 0.1 < lag.dead_time < 0.14
+
+
+def test_beside_one_cause_no_other_is_told() -> None:
+    found, best = _ended(_recording(0.1, 0.02))
+    late = LATE[-1]
+    here = Rival(
+        (*best.best.candidates, late),
+        polished(found.problem, added(best.best.fit.point, late)),
+    )
+    told = replace(best, best=here)
+    assert _told(found, told) == (found, told)
 
 
 def test_a_valve_as_quick_as_any_is_not_told() -> None:
