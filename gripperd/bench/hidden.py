@@ -18,6 +18,9 @@ from gripperd.model.effect import (
 from gripperd.model.kinds import InMuscle
 from gripperd.model.track import Track
 
+DEAD = 1.0
+"""Longest dead time of a valve: nothing may move yet, and be on its way. [s]"""
+
 
 class HiddenEffects:
     """The effects that need the present and the past, stepped with the plant.
@@ -119,9 +122,18 @@ class HiddenEffects:
         """
         return self._jaws.along(opening, now) - opening
 
-    def settle(self, *outcome: float) -> None:
-        """Compare what came out with the sample before, for :attr:`steady`."""
-        self.steady = outcome == self._last
+    def settle(self, now: Track, *outcome: float) -> None:
+        """Compare what came out with the sample before, for :attr:`steady`.
+
+        Parameters
+        ----------
+        now
+            The sample.
+        outcome
+            What came out of it.
+        """
+        waits = self._valve and now.still[-1] < DEAD
+        self.steady = not waits and outcome == self._last
         self._last = outcome
 
 

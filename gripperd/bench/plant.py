@@ -76,6 +76,9 @@ class Plant:
             message = f"current_mA = {current / MILLI:g}: must be finite, not below 0"
             raise InputError(message, key="current_mA")
         if current != self._current:
+            if self._at_rest and self._hidden:
+                # Nothing was noted at rest: until now it was the old command.
+                self._hidden.pressure(self._wanted, self.track(0.0))
             self._current = current
             self._resume()
 
@@ -201,7 +204,7 @@ class Plant:
         )
         if hidden and now:
             jaws.lose(hidden.lost(jaws.straight, now))
-            hidden.settle(self._target, contracting, extending)
+            hidden.settle(now, self._target, contracting, extending)
         placed = self._placed
         if placed:
             before = placed.width, placed.stiffness

@@ -23,6 +23,8 @@ from gripperd.model.effect import Signal
 
 NEXT = 2
 """Effects of another kind that are fitted in full."""
+FORMS = 4
+"""Forms of one cause that are: between a dead time and a lag lies a ridge."""
 
 
 class Aftermath(NamedTuple):
@@ -83,7 +85,7 @@ def _with(
     here = best.best
     if found.problem.temperature([kind.signal]) <= 1 or not here.candidates:
         return found, best
-    if kind.causes & set(here.names):
+    if any(_is_cause(kind, one) for one in here.candidates):
         return found, best
     point = here.fit.point
     # Tolerances that are too tight are one finding, of which nothing can be dropped.
@@ -128,10 +130,23 @@ def _grown(
 ) -> tuple[list[Rival], list[Rival]]:
     """Give it with each cause that it lacks, and with the leading others."""
     around = design(problem, here.fit.point, listed)
-    ranked = leaders({one: around.fit(one).evidence for one in around.members})
-    lasting = [one for one in ranked if one.candidate.name in kind.causes]
-    others = [one for one in ranked if one.candidate.name not in kind.causes]
-    return _fitted(problem, here, lasting), _fitted(problem, here, others[:NEXT])
+    evidence = {one: around.fit(one).evidence for one in around.members}
+    ranked = sorted(evidence, key=lambda one: -evidence[one])
+    causes: dict[tuple[str, ...], list[Member]] = {}
+    for one in ranked:
+        if _is_cause(kind, one.candidate):
+            causes.setdefault(one.candidate.kind, []).append(one)
+    best = [_fitted(problem, here, forms[:FORMS])[0] for forms in causes.values()]
+    best.sort(key=lambda rival: -rival.evidence)
+    others = [one for one in leaders(evidence) if not _is_cause(kind, one.candidate)]
+    return best, _fitted(problem, here, others[:NEXT])
+
+
+def _is_cause(kind: Aftermath, candidate: Candidate) -> bool:
+    """Whether a candidate may be why the signal goes on changing."""
+    effect = candidate.effect
+    named = candidate.name in kind.causes
+    return named and effect is not None and effect.signal is kind.signal
 
 
 def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival]:

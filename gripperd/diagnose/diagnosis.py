@@ -30,13 +30,13 @@ from gripperd.diagnose.extrapolation import (
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
 from gripperd.diagnose.holdout import Split, split
+from gripperd.diagnose.judged import bearing_signal, main_signal
 from gripperd.diagnose.jump import jump
 from gripperd.diagnose.named import Named, named
 from gripperd.diagnose.next_experiment import Proposal, proposal
 from gripperd.diagnose.overstepped import with_overstepped
 from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import polished
-from gripperd.diagnose.price import acts_on
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Contradiction, Recording
 from gripperd.diagnose.rest_length import length_is_open, with_other_length
@@ -49,7 +49,7 @@ from gripperd.diagnose.signature import signature
 from gripperd.diagnose.thinning import thinned
 from gripperd.diagnose.tolerances import with_usual_tolerances
 from gripperd.diagnose.where import Finding, findings
-from gripperd.model.effect import Effect, Signal, Stage
+from gripperd.model.effect import Effect, Signal
 
 MOST_ROWS = 40_000
 """More are averaged, whole numbers of neighbours: they cost and tell nothing."""
@@ -197,12 +197,11 @@ def _told(
     inside, outside = apart(parts)
     judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     entries = named(found, best, judged)
-    main = _main(best, judged)
+    main = main_signal(best, judged)
     # That tolerances are too tight is one finding, however many constants it moves.
     effects = 1 if nearest.looser else len(entries)
-    # What an effect does not touch says nothing of it.
-    touched = {s for one in best.best.candidates for s in acts_on(train, one)}
-    gap = judged[main] if main in touched else None
+    bearing = bearing_signal(train, best, main, judged)
+    gap = judged[bearing] if bearing else None
     if slip or (gap and not gap.confirms(effects)):
         is_open = bool(slip) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
@@ -269,21 +268,6 @@ def _without_verdict(
 def _columns(recording: Recording) -> frozenset[str]:
     columns = {name for run in recording.runs for name in run.columns if run.has(name)}
     return frozenset(columns | ({"contraction"} if "length" in columns else set()))
-
-
-def _main(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
-    """The signal of the first effect, else the one recalibration leaves worst.
-
-    A sensor that errs shows in every stage that it touches, in one most. Without any
-    effect the story is about the force.
-    """
-    effects = [one.effect for one in best.best.candidates if one.effect]
-    for effect in effects:
-        if effect.stage is not Stage.SENSOR and effect.signal in judged:
-            return effect.signal
-    if Signal.FORCE in judged and not effects:
-        return Signal.FORCE
-    return max(judged, key=lambda one: judged[one].left_open, default=None)
 
 
 def _next(problem: Problem, best: Contest) -> Proposal | None:

@@ -99,10 +99,17 @@ def _strained(explanation: Explanation, track: Runs) -> Runs:
     ]
     if not any(np.any(one) for one in hidden):
         return track
-    contraction = np.asarray(track.contraction + sum(hidden))
+    stretch = np.asarray(sum(hidden))
+    contraction = track.contraction + stretch
+    rate = track.rate + track.each(_rate, stretch)
     turned = track.each(_turned, contraction) - track.each(_turned, track.contraction)
     direction = np.clip(track.direction + turned, -1.0, 1.0)
-    return replace(track, contraction=contraction, direction=direction)
+    return replace(track, contraction=contraction, rate=rate, direction=direction)
+
+
+def _rate(value: Array, run: Track) -> Array:
+    """How fast a value changes from sample to sample. [1/s]."""
+    return np.gradient(value, run.time) if value.size > 1 else np.zeros_like(value)
 
 
 def _turned(contraction: Array, run: Track) -> Array:
@@ -125,9 +132,7 @@ def _read(explanation: Explanation, signal: Signal, value: Array, track: Runs) -
             value = _along(sensor, value, track)
     skew = explanation.skews.get(signal, 0.0)
     if skew and signal in (Signal.OPENING, Signal.GRIP):
-        value = value - skew * track.each(
-            lambda one, run: np.gradient(one, run.time), value
-        )
+        value = value - skew * track.each(_rate, value)
     return value + explanation.zeros.get(signal, 0.0)
 
 

@@ -57,7 +57,7 @@ class CoulombFriction(InMuscle):
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Against contraction while contracting, with it while extending. [N]."""
-        return -at.direction * self.magnitude
+        return -at.direction * self.magnitude * self._share(at.rate)
 
     def rest(self) -> Array:
         """A sign that begins with the first travel."""
@@ -65,10 +65,13 @@ class CoulombFriction(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take off the friction of each moment. [N]."""
-        share = np.ones_like(value)
-        # What jumps as the travel turns does so at any rate, and stays at rest.
-        if self.slip > 0 and self.distance > 0:
-            share = np.tanh(np.abs(track.rate) / self.slip)
+        share = np.broadcast_to(self._share(track.rate), value.shape)
         way, direction = track.contraction, track.direction
-        sign = dahl(way, direction, share, self.distance, memory)
+        sign = dahl(way, direction, np.asarray(share), self.distance, memory)
         return value - self.magnitude * sign
+
+    def _share(self, rate: Real) -> Real:
+        """What jumps as the travel turns does so at any rate, and stays at rest."""
+        if self.slip > 0 and self.distance > 0:
+            return np.tanh(np.abs(rate) / self.slip)
+        return 1.0

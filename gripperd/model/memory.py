@@ -62,6 +62,8 @@ def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
     state
         Times and values of the past, shape ``(2, KEPT)``; it is moved on.
     """
+    if late == 0 or not signal.size:
+        return signal
     past = np.hstack([state[:, ~np.isnan(state[0])], np.stack([time, signal])])
     last = past[:, -KEPT:]
     state[:, KEPT - last.shape[1] :] = last
@@ -83,7 +85,7 @@ def dahl(
 
     Dahl's model with exponent 1: the sign nears a share of the direction by ``1 - 1/e``
     in each distance gained in it [2]_. At rest it stays. The state, shape ``(2,)``,
-    holds how far the signal came and the sign, which begins at the direction.
+    holds how far the signal came and the sign, which begins at that share.
     """
     return compiled(_dahl)(signal, direction, share, distance, state)
 
@@ -152,15 +154,14 @@ def _dahl(
     out = np.empty_like(signal)
     last, sign = state[0], state[1]
     for index in range(signal.size):
-        toward = direction[index]
-        if np.isnan(last):
-            last, sign = signal[index], toward
+        toward, goal = direction[index], share[index] * direction[index]
+        if np.isnan(last) or np.isnan(sign):
+            last, sign = signal[index], goal
         # Noise goes to and fro: only what is gained counts.
         gained = (signal[index] - last) * toward
         if gained > 0:
             last = signal[index]
         kept = np.exp(-max(gained, 0.0) / distance) if distance > 0 else 0.0
-        goal = share[index] * toward
         sign = goal + (sign - goal) * kept
         out[index] = sign
     state[0], state[1] = last, sign

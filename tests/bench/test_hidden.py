@@ -15,6 +15,7 @@ from gripperd.bench.settings import PlantSettings
 from gripperd.effects import EFFECTS
 from gripperd.effects.ambient_pressure import AmbientPressure
 from gripperd.effects.channel_delay import ChannelDelay
+from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep
 from gripperd.effects.fatigue import Fatigue
 from gripperd.effects.jaw_compliance import JawCompliance
@@ -110,6 +111,35 @@ def test_a_lagging_valve_fills_late(chain: Chain) -> None:
     assert 0.5 * 209_375 < plant.pressure < 0.66 * 209_375
     run(plant, 6.0)
     assert plant.pressure == pytest.approx(209_375, rel=1e-4)
+
+
+@pytest.mark.parametrize("rest", [0.0, 10.0])
+@pytest.mark.parametrize("dead_time", [0.002, 0.03, 0.3])
+def test_a_valve_that_waits_fills_all_the_same(
+    chain: Chain, rest: float, dead_time: float
+) -> None:
+    waiting = ValveLag(share=1.0, time=0.05, dead_time=dead_time)
+    plant = Plant(with_effect(chain, waiting), PlantSettings())
+    run(plant, rest)
+    plant.current = CURRENT
+    run(plant, dead_time)
+    assert plant.pressure < 0.05 * 209_375
+    run(plant, 2.0)
+    assert plant.pressure == pytest.approx(209_375, rel=1e-4)
+    assert plant.at_rest
+    # What comes at rest waits as long.
+    plant.current = 0.004
+    run(plant, dead_time)
+    assert plant.pressure > 0.9 * 209_375
+    run(plant, 3.0)
+    assert plant.pressure < 500.0
+
+
+def test_friction_that_grows_with_the_rate_is_none_at_rest(chain: Chain) -> None:
+    friction = CoulombFriction(20.0, distance=1e-3, slip=3e-3)
+    plant = grasping(chain, friction)
+    seen = with_effect(chain, friction).predict(CURRENT, PressedObject(SIZE, STIFFNESS))
+    assert plant.grip == pytest.approx(seen.grip_force, rel=5e-3)
 
 
 def test_a_creeping_muscle_goes_on_pulling_harder_at_constant_pressure(

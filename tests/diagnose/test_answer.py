@@ -95,25 +95,38 @@ def _told(found: Found, best: Contest) -> tuple[Found, Contest]:
     return with_aftermath(found, best, (*OFFSET, *LATE), noises)
 
 
-def test_a_valve_that_waits_longer_than_any_good_one_is_told() -> None:
-    found, best = _ended(_recording(0.1, 0.02))
+@pytest.mark.parametrize(
+    ("dead_time", "time"), [(0.1, 0.02), (0.04, 0.02), (0.02, 0.03), (0.0, 0.05)]
+)
+def test_a_valve_slower_than_any_good_one_is_told(
+    dead_time: float, time: float
+) -> None:
+    found, best = _ended(_recording(dead_time, time))
     assert best.best.names == ("valve_offset",)
     _, told = _told(found, best)
     assert told.best.names == ("valve_offset", "valve_lag")
     (lag,) = (e for e in told.best.fit.point.effects if isinstance(e, ValveLag))
-    # The second lag counts as waiting in part.
-    assert 0.1 < lag.dead_time < 0.14
+    # One row besides, and the second lag counts as waiting in part.
+    assert dead_time < lag.dead_time < dead_time + STEP + time
+
+
+def _beside(channel: Signal) -> tuple[Found, Contest]:
+    """The same, had a channel that is read late been named as well."""
+    found, best = _ended(_recording(0.1, 0.02))
+    late = Candidate("channel_delay", ChannelDelay(delay=0.01, channel=channel))
+    point = added(best.best.fit.point, late)
+    here = Rival((*best.best.candidates, late), polished(found.problem, point))
+    return found, Contest(here, (*best.without, best.best), (*best.rivals, ()))
 
 
 def test_beside_one_cause_no_other_is_told() -> None:
-    found, best = _ended(_recording(0.1, 0.02))
-    late = LATE[-1]
-    here = Rival(
-        (*best.best.candidates, late),
-        polished(found.problem, added(best.best.fit.point, late)),
-    )
-    told = replace(best, best=here)
-    assert _told(found, told) == (found, told)
+    found, best = _beside(Signal.PRESSURE)
+    assert _told(found, best) == (found, best)
+
+
+def test_a_force_that_is_read_late_is_no_cause() -> None:
+    _, told = _told(*_beside(Signal.FORCE))
+    assert "valve_lag" in told.best.names
 
 
 def test_a_valve_as_quick_as_any_is_not_told() -> None:

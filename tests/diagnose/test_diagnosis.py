@@ -225,6 +225,20 @@ def test_what_an_effect_does_not_touch_speaks_neither_for_nor_against_it(
     assert found.verdict is Verdict.NAMED
 
 
+def test_a_constant_of_the_jaws_is_borne_out_by_the_jaws(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Without an effect the story is about the force, which the jaws do not touch."""
+    told = with_jaws(recording())
+    wide = replace(LINKAGE, open_width=LINKAGE.open_width + 6e-3)
+    model = replace(MODEL, linkage=wide)
+    found = diagnose(told, model, {}, {})
+    assert _names(found) == ["parameter:gripper.open_width"]
+    assert found.main is Signal.FORCE
+    monkeypatch.setattr(Gap, "confirms", lambda gap, _: gap.signal is Signal.FORCE)
+    assert diagnose(told, model, {}, {}).verdict is not Verdict.NAMED
+
+
 def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:
     # Two sweeps where the line of a drift meets the step are left out and bear it out.
     order = ("b", "c", "b2", "d", "vented", "a", "e", "f")

@@ -17,6 +17,7 @@ from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.linkage_friction import LinkageFriction
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.series_compliance import SeriesCompliance
+from gripperd.effects.viscous_friction import ViscousFriction
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.small import (
@@ -166,6 +167,37 @@ def test_friction_inside_a_mount_turns_with_the_way_that_it_stretches(
         sign = max(1 - share * way / 4e-4, -1.0)
         full = np.asarray(BraidFriction().magnitude(state, MUSCLE))[place]
         assert friction[place] == pytest.approx(-sign * full, rel=0.15)
+
+
+def test_friction_inside_a_mount_is_never_more_than_it_is(
+    silent: dict[str, Course],
+) -> None:
+    course = silent["b"]
+    # It slips back by half of what turns friction, too little to count as travel.
+    slipping = course.level("contraction") - np.linspace(0.0, 4e-4, len(course))
+    course = replace(course, smooth={}, measured={
+        **course.measured, "contraction": slipping,
+    })  # fmt: skip
+    soft = MODEL.with_effect(SeriesCompliance(shortening=2e-5))
+    both = soft.with_effect(CoulombFriction(20.0))
+    friction = _one(both, course, Signal.FORCE) - _one(soft, course, Signal.FORCE)
+    assert np.max(np.abs(friction)) == pytest.approx(20.0)
+
+
+def test_a_muscle_inside_a_mount_has_the_rate_of_the_stretch(
+    silent: dict[str, Course],
+) -> None:
+    course = silent["b"]
+    pull = np.maximum(course.level("force"), 0.0)
+    way = 2e-3
+    soft = MODEL.with_effect(SeriesCompliance(shortening=way / float(np.ptp(pull))))
+    damped = soft.with_effect(ViscousFriction(damping=1e4))
+    damping = _one(damped, course, Signal.FORCE) - _one(soft, course, Signal.FORCE)
+    stretch = way * pull / float(np.ptp(pull))
+    for begin, end in ((15, 35), (65, 85)):
+        gone = (stretch[end] - stretch[begin]) / (course.time[end] - course.time[begin])
+        assert abs(gone) > way / 20.0
+        assert np.mean(damping[begin:end]) == pytest.approx(-1e4 * gone, rel=0.1)
 
 
 def test_a_mount_that_stretches_turns_no_friction_where_the_length_travels(

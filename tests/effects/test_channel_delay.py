@@ -51,3 +51,9 @@ def test_sample_by_sample_it_remembers_a_second_at_a_kilohertz(muscle: Muscle) -
         for i, sample in enumerate(samples(track))
     ]
     assert late == pytest.approx(effect.along(value, track, effect.rest()))
+
+
+def test_nothing_is_not_late(muscle: Muscle) -> None:
+    effect = ChannelDelay(delay=0.05)
+    track = track_of(muscle, time=np.empty(0))
+    assert effect.along(np.empty(0), track, effect.rest()).size == 0

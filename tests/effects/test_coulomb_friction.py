@@ -64,3 +64,34 @@ def test_what_creeps_rubs_less(muscle: Muscle) -> None:
     np.testing.assert_allclose(opposite, -force)
     jumps = replace(friction, distance=0.0)
     assert jumps.along(np.zeros(300), track, jumps.rest()) == pytest.approx(-15.0)
+
+
+def test_a_muscle_that_stands_still_does_not_creep(muscle: Muscle) -> None:
+    friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
+    static = StaticMuscle(muscle, (friction,))
+    ideal = StaticMuscle(muscle).force(2e5, 0.1)
+    assert static.force(2e5, 0.1, Direction.CONTRACTING) == pytest.approx(ideal)
+
+
+def test_it_begins_at_the_share_of_its_rate(muscle: Muscle) -> None:
+    friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
+    track = track_of(muscle, contraction=np.array([0.1]), rate=np.array([3e-4]))
+    (force,) = friction.along(np.zeros(1), track, friction.rest())
+    assert force == pytest.approx(-15.0 * np.tanh(0.1))
+
+
+@pytest.mark.parametrize("column", ["contraction", "rate", "direction"])
+def test_what_is_not_known_is_not_known_for_one_sample(
+    muscle: Muscle, column: str
+) -> None:
+    friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
+    columns = {
+        "contraction": np.linspace(0.0, 0.1, 6),
+        "rate": np.full(6, 0.1),
+        "direction": np.ones(6),
+    }
+    columns[column][3] = np.nan
+    track = track_of(muscle, **columns)
+    force = friction.along(np.zeros(6), track, friction.rest())
+    assert np.isnan(force).tolist() == [False] * 3 + [True] + [False] * 2
+    assert force[-1] == pytest.approx(-15.0)
