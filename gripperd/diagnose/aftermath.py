@@ -1,6 +1,6 @@
 """What goes on after a step, far below what a model misses, and what explains it."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ from gripperd.diagnose.finalists import leaders
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
-from gripperd.diagnose.polish import polished
+from gripperd.diagnose.polish import Polished, polished
 from gripperd.diagnose.price import LEAST_MORE, MUCH, is_fault
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.rival import Rival, added
@@ -34,8 +34,8 @@ class Aftermath(NamedTuple):
     causes: frozenset[str]
     within: Callable[[Problem, Point, Noise], Problem]
     """Gives the problem with the stretches in which it shows."""
-    explained: Callable[[Problem, Point, Point], bool]
-    """Whether enough of it is gone from a point to the next."""
+    explained: Callable[[Problem, Polished, Polished], bool]
+    """Whether enough of it is gone from one fit to the next."""
 
 
 AFTERMATHS = (
@@ -106,8 +106,11 @@ def _with(
     going = [rival for rival in lasting if _accounts(kind, problem, here, rival)]
     if not going:
         return found, best
+    # A form that other sweeps foretell goes before one that fits these better.
+    before = here.fit
+    going.sort(key=lambda one: not bears_out(problem, before, one.fit, [kind.signal]))
     told, without = _needed(problem, going[0], found.threshold)
-    own, *alike = (rival.candidates[-1] for rival in going)
+    own, *alike = _kinds(rival.candidates[-1] for rival in going)
     if own not in told.candidates:
         return found, best
     stand_ins = _stand_ins(best) | {own: alike}
@@ -136,10 +139,17 @@ def _grown(
     for one in ranked:
         if _is_cause(kind, one.candidate):
             causes.setdefault(one.candidate.kind, []).append(one)
-    best = [_fitted(problem, here, forms[:FORMS])[0] for forms in causes.values()]
-    best.sort(key=lambda rival: -rival.evidence)
+    forms = [one for own in causes.values() for one in own[:FORMS]]
     others = [one for one in leaders(evidence) if not _is_cause(kind, one.candidate)]
-    return best, _fitted(problem, here, others[:NEXT])
+    return _fitted(problem, here, forms), _fitted(problem, here, others[:NEXT])
+
+
+def _kinds(candidates: Iterable[Candidate]) -> list[Candidate]:
+    """Give the first form of each."""
+    found: dict[tuple[str, ...], Candidate] = {}
+    for one in candidates:
+        found.setdefault(one.kind, one)
+    return list(found.values())
 
 
 def _is_cause(kind: Aftermath, candidate: Candidate) -> bool:
@@ -170,11 +180,8 @@ def _accounts(kind: Aftermath, problem: Problem, here: Rival, larger: Rival) -> 
     before, after = (misfit(problem, point, kind.signal) for point in points)
     if min(0.5 * (before - after), larger.evidence - here.evidence) <= LEAST_MORE:
         return False
-    return (
-        kind.explained(problem, *points)
-        and is_fault(problem, larger)
-        and bears_out(problem, here.fit, larger.fit, [kind.signal])
-    )
+    explained = kind.explained(problem, here.fit, larger.fit)
+    return explained and is_fault(problem, larger)
 
 
 def _takes_its_share(

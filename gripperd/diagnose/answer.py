@@ -13,6 +13,7 @@ from gripperd.diagnose.block import Block
 from gripperd.diagnose.dwell import FEW, SAMPLES, SETTLED, dwells_of, stretches
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
+from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.price import PHANTOM
 from gripperd.diagnose.problem import Problem
 from gripperd.model.effect import Signal
@@ -57,8 +58,10 @@ def _loudness(problem: Problem, point: Point) -> float:
     return float(np.mean(left**2) ** 0.5)
 
 
-def answered(problem: Problem, before: Point, after: Point) -> bool:
+def answered(problem: Problem, before: Polished, after: Polished) -> bool:
     """Whether an explanation closes much that a quick regulator would not.
+
+    All answers have one law of a few numbers; none has to be left out to try it.
 
     Parameters
     ----------
@@ -71,11 +74,11 @@ def answered(problem: Problem, before: Point, after: Point) -> bool:
     slow = problem.constants[place]
     quick = []
     for response in np.linspace(0.0, QUICK, TRIED):
-        shifts = before.shifts.copy()
+        shifts = before.point.shifts.copy()
         shifts[place] = (response - slow.nominal) / slow.sigma
-        quick.append(_left(problem, replace(before, shifts=shifts)))
+        quick.append(_left(problem, replace(before.point, shifts=shifts)))
     at_once = quick[0]
-    return min(quick) - _left(problem, after) > PHANTOM * at_once
+    return min(quick) - _left(problem, after.point) > PHANTOM * at_once
 
 
 def _left(problem: Problem, point: Point) -> float:

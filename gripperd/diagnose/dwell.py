@@ -12,10 +12,12 @@ import numpy as np
 
 from gripperd.diagnose.block import Block
 from gripperd.diagnose.course import Course
+from gripperd.diagnose.crossing import bears_out
 from gripperd.diagnose.drift import Quiet, hold
 from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
+from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.price import MUCH
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.quiet import HELD, highest
@@ -73,8 +75,10 @@ def misfit(problem: Problem, point: Point, signal: Signal = Signal.FORCE) -> flo
     return total
 
 
-def stilled(problem: Problem, before: Point, after: Point) -> bool:
+def stilled(problem: Problem, before: Polished, after: Polished) -> bool:
     """Whether much of the way in which the force drifts in the dwells is gone.
+
+    Other sweeps must foretell each better as well.
 
     Parameters
     ----------
@@ -83,8 +87,9 @@ def stilled(problem: Problem, before: Point, after: Point) -> bool:
     before, after
         Without and with a cause of the drift.
     """
-    drift, left = (drifted(problem, point) for point in (before, after))
-    return drift - left > MUCH * drift
+    drift, left = (drifted(problem, fit.point) for fit in (before, after))
+    gone = drift - left > MUCH * drift
+    return gone and bears_out(problem, before, after, [Signal.FORCE])
 
 
 def drifted(problem: Problem, point: Point) -> float:

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.diagnose import price
+from gripperd.diagnose import dwell, price
 from gripperd.diagnose.aftermath import with_aftermath
 from gripperd.diagnose.candidates import Candidate, forms
 from gripperd.diagnose.found import Found
@@ -105,6 +105,14 @@ def _slipping(moment: Moment) -> Array:
 
 def test_what_is_creep_in_part_is_not_told() -> None:
     found, best = _ended(threshold(60.0), creeping(0.02), _slipping)
+    assert _told(found, best) == (found, best)
+
+
+def test_creep_that_no_other_sweep_foretells_is_not_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found, best = _ended(threshold(60.0), creeping(0.02))
+    monkeypatch.setattr(dwell, "bears_out", lambda *_: False)
     assert _told(found, best) == (found, best)
 
 

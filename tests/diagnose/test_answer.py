@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose import aftermath
 from gripperd.diagnose.aftermath import with_aftermath
 from gripperd.diagnose.answer import answering
 from gripperd.diagnose.block import Block
@@ -11,7 +12,7 @@ from gripperd.diagnose.dwell import misfit
 from gripperd.diagnose.found import Found
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.point import Point
-from gripperd.diagnose.polish import polished
+from gripperd.diagnose.polish import Polished, polished
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.rival import Rival, added
@@ -108,6 +109,17 @@ def test_a_valve_slower_than_any_good_one_is_told(
     (lag,) = (e for e in told.best.fit.point.effects if isinstance(e, ValveLag))
     # One row besides, and the second lag counts as waiting in part.
     assert dead_time < lag.dead_time < dead_time + STEP + time
+
+
+def test_what_other_sweeps_foretell_goes_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    def late(*fits: object) -> bool:
+        fit = fits[2]
+        assert isinstance(fit, Polished)
+        return any(isinstance(effect, ChannelDelay) for effect in fit.point.effects)
+
+    found, best = _ended(_recording(0.04, 0.02))
+    monkeypatch.setattr(aftermath, "bears_out", late)
+    assert _told(found, best)[1].best.names == ("valve_offset", "channel_delay")
 
 
 def _beside(channel: Signal) -> tuple[Found, Contest]:
