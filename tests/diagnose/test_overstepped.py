@@ -61,3 +61,9 @@ def test_a_size_that_nobody_mistakes_so_far_is_not_told(
     # Were a muscle of 20 mm never taken for one of 20.8 mm.
     monkeypatch.setattr(overstepped, "FAR", {"muscle.diameter": 0.03})
     assert BORE not in with_overstepped(found, best, LISTED).best.names
+
+
+def test_what_was_taken_for_another_size_in_earnest_may_be_told() -> None:
+    # A braid of 12 mm for a bore of 10 mm; 296 mm for 300 mm between other ends.
+    assert 0.2 < overstepped.FAR["muscle.diameter"] < 0.3
+    assert 4 / 300 < overstepped.FAR["muscle.rest_length"] < 0.1
