@@ -50,7 +50,8 @@ def lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> A
 def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
     """What a signal was some time ago, between samples on a straight line.
 
-    Before the first sample it was the first value. Given sample by sample, it looks
+    Before the first sample it was the first value; what is not known lies on the line
+    between what is. Given sample by sample, it looks
     back over the last :data:`KEPT` of them.
 
     Parameters
@@ -67,7 +68,10 @@ def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
     past = np.hstack([state[:, ~np.isnan(state[0])], np.stack([time, signal])])
     last = past[:, -KEPT:]
     state[:, KEPT - last.shape[1] :] = last
-    return np.interp(time - late, *past)
+    known = past[:, ~np.isnan(past[1])]
+    if not known.size:
+        return np.full_like(signal, np.nan)
+    return np.interp(time - late, *known)
 
 
 def play(signal: Array, radius: float, state: Array) -> Array:

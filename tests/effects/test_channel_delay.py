@@ -57,3 +57,14 @@ def test_nothing_is_not_late(muscle: Muscle) -> None:
     effect = ChannelDelay(delay=0.05)
     track = track_of(muscle, time=np.empty(0))
     assert effect.along(np.empty(0), track, effect.rest()).size == 0
+
+
+def test_what_is_not_known_lies_between_what_is(muscle: Muscle) -> None:
+    effect = ChannelDelay(delay=0.03)
+    holed = 30.0 * TIME
+    holed[[50, 51]] = np.nan
+    track = track_of(muscle, time=TIME)
+    late = effect.along(holed, track, effect.rest())
+    assert late[2:] == pytest.approx(30.0 * (TIME[2:] - 0.03))
+    nothing = effect.along(np.full_like(TIME, np.nan), track, effect.rest())
+    assert np.isnan(nothing).all()
