@@ -110,11 +110,12 @@ def _with(
     before = here.fit
     going.sort(key=lambda one: not bears_out(problem, before, one.fit, [kind.signal]))
     told, without = _needed(problem, going[0], found.threshold)
-    own, *alike = _kinds(rival.candidates[-1] for rival in going)
+    own, *alike = (rival.candidates[-1] for rival in _kinds(going))
     if own not in told.candidates:
         return found, best
     stand_ins = _stand_ins(best) | {own: alike}
-    rivals = sorted((*tried, *lasting, *others), key=lambda rival: -rival.evidence)
+    causes = _kinds((*going, *lasting))
+    rivals = sorted((*tried, *causes, *others), key=lambda rival: -rival.evidence)
     return (
         replace(found, problem=problem, best=told, rivals=tuple(rivals)),
         Contest(
@@ -144,11 +145,11 @@ def _grown(
     return _fitted(problem, here, forms), _fitted(problem, here, others[:NEXT])
 
 
-def _kinds(candidates: Iterable[Candidate]) -> list[Candidate]:
-    """Give the first form of each."""
-    found: dict[tuple[str, ...], Candidate] = {}
-    for one in candidates:
-        found.setdefault(one.kind, one)
+def _kinds(rivals: Iterable[Rival]) -> list[Rival]:
+    """Give the first form of each cause: its other forms are no rivals of it."""
+    found: dict[tuple[str, ...], Rival] = {}
+    for rival in rivals:
+        found.setdefault(rival.candidates[-1].kind, rival)
     return list(found.values())
 
 

@@ -141,6 +141,12 @@ def test_a_force_that_is_read_late_is_no_cause() -> None:
     assert "valve_lag" in told.best.names
 
 
+def test_no_form_of_what_is_told_is_its_rival() -> None:
+    after, told = _told(*_ended(_recording(0.04, 0.02)))
+    assert told.best.names[-1] == "valve_lag"
+    assert [rival.names for rival in after.rivals].count(told.best.names) == 1
+
+
 def test_a_valve_as_quick_as_any_is_not_told() -> None:
     found, best = _ended(_recording(0.0, 0.01))
     after, told = _told(found, best)
