@@ -20,7 +20,7 @@ from gripperd.diagnose.point import Point
 from gripperd.diagnose.polish import Polished
 from gripperd.diagnose.price import MUCH
 from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.quiet import HELD, highest
+from gripperd.diagnose.quiet import HELD
 from gripperd.diagnose.whitening import whitened
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -133,7 +133,7 @@ def dwells_of(problem: Problem, signal: Signal) -> list[int]:
 
 def _dwells(problem: Problem) -> Iterator[Block]:
     """Dwells of the force; what came before the first command is not known."""
-    top = highest(problem)
+    top = problem.highest.get(Signal.PRESSURE, 0.0)
     for block in problem.blocks:
         if block.signal is not Signal.FORCE:
             continue

@@ -22,7 +22,7 @@ def vented(problem: Problem, signal: Signal) -> list[Quiet]:
     """Readings of a vented muscle that holds no force: nothing but noise."""
     if signal not in (Signal.PRESSURE, Signal.FORCE):
         return []
-    top = highest(problem)
+    top = problem.highest.get(Signal.PRESSURE, 0.0)
     found: list[Quiet] = []
     for index, course in enumerate(problem.courses):
         reading = course.column(signal.value)
@@ -49,7 +49,7 @@ def driven(problem: Problem, residuals: list[Array], indices: list[int]) -> list
     indices
         Blocks of one signal.
     """
-    top = highest(problem)
+    top = problem.highest.get(Signal.PRESSURE, 0.0)
     found: list[Quiet] = []
     for i in indices:
         course = problem.courses[problem.blocks[i].course]
@@ -60,14 +60,6 @@ def driven(problem: Problem, residuals: list[Array], indices: list[int]) -> list
             found.append(hold(time, residuals[i], creeps=True))
     found += _repeats(problem, residuals, indices)
     return found
-
-
-def highest(problem: Problem) -> float:
-    """Give the highest pressure. [Pa]."""
-    levels = [course.level("pressure") for course in problem.courses]
-    return max(
-        (float(np.nanmax(p)) for p in levels if np.isfinite(p).any()), default=0.0
-    )
 
 
 def _holds(course: Course, top: float) -> bool:
