@@ -71,7 +71,7 @@ class CoulombFriction(InMuscle):
         return value - self.magnitude * sign
 
     def _share(self, rate: Real) -> Real:
-        """What jumps as the travel turns does so at any rate, and stays at rest."""
+        """Part that a rate calls up: all of a friction that jumps as travel turns."""
         if self.slip > 0 and self.distance > 0:
             return np.tanh(np.abs(rate) / self.slip)
         return 1.0

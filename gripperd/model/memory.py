@@ -51,8 +51,7 @@ def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
     """What a signal was some time ago, between samples on a straight line.
 
     Before the first sample it was the first value; what is not known lies on the line
-    between what is. Given sample by sample, it looks
-    back over the last :data:`KEPT` of them.
+    between what is. Given sample by sample, it looks back over the last :data:`KEPT`.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from gripperd.bench.faults import BenchFaults
-from gripperd.bench.hidden import HiddenEffects, lively
+from gripperd.bench.hidden import DEAD, HiddenEffects, lively
 from gripperd.bench.object import BenchObject
 from gripperd.bench.plant import Plant
 from gripperd.bench.rig import Rig
@@ -133,6 +133,10 @@ def test_a_valve_that_waits_fills_all_the_same(
     assert plant.pressure > 0.9 * 209_375
     run(plant, 3.0)
     assert plant.pressure < 500.0
+
+
+def test_the_bench_waits_as_long_as_any_valve() -> None:
+    assert parameters(ValveLag)["dead_time"].high <= DEAD
 
 
 def test_friction_that_grows_with_the_rate_is_none_at_rest(chain: Chain) -> None:
