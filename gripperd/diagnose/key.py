@@ -37,14 +37,18 @@ class Key(NamedTuple):
         """SI per unit of the key; 1 for a ratio."""
         return SI_PER_UNIT[self.unit] if self.unit else 1.0
 
+    @property
+    def spelt(self) -> str:
+        """Unit for a person; empty for a ratio."""
+        return (self.unit or "").replace("_per_", "/")
+
     def shown(self, value: float) -> str:
         """Write an SI value with the unit of the key.
 
         >>> Key("spring_rate_N_per_mm", "rate of the spring").shown(1000.0)
         '1 N/mm'
         """
-        spelt = (self.unit or "").replace("_per_", "/")
-        return f"{value / self.factor:.4g} {spelt}".rstrip()
+        return f"{value / self.factor:.4g} {self.spelt}".rstrip()
 
     def tidy(self, value: float) -> float:
         """Round an SI value in the unit of the key: no digit that means nothing."""

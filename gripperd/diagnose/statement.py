@@ -6,6 +6,7 @@ from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.correction import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.figures import fixed
 from gripperd.diagnose.key import key_of_constant, keys_of, plain, public
 from gripperd.diagnose.named import Named
 from gripperd.diagnose.recording import Contradiction
@@ -25,11 +26,17 @@ def summary(diagnosis: Diagnosis) -> str:
         case Verdict.NAMED:
             return f"The model {_told(diagnosis.named)}{_tight(diagnosis)}{gap}."
         case Verdict.AMBIGUOUS:
+            firm = [one for one in diagnosis.named if not one.equivalents]
+            model = _told(firm) or "is off"
             return (
-                f"The model is off, and this recording cannot tell {_open(diagnosis)}."
+                f"The model {model}, and this recording cannot tell"
+                f" {_open(diagnosis)}{gap}."
             )
         case Verdict.UNEXPLAINED:
-            return "The model is off, and no effect of the library explains it."
+            return (
+                "The model is off, and no effect of the library explains"
+                f" it{_still_open(diagnosis)}."
+            )
         case Verdict.NONE:
             return f"Nothing is missing: what is left is noise{gap}."
         case Verdict.UNUSABLE:
@@ -41,23 +48,32 @@ def summary(diagnosis: Diagnosis) -> str:
 
 def statement(diagnosis: Diagnosis, entry: Named) -> str:
     """Say what one effect or constant does and what to do about it, in one sentence."""
+    what = _corrected(diagnosis, entry) if entry.effect is None else _effect(entry)
+    if diagnosis.verdict is Verdict.UNEXPLAINED:
+        return f"Nearest, and no explanation of what is seen: {what}."
+    if entry.equivalents:
+        others = listed(list(map(plain, entry.equivalents)), "or")
+        said = f"Perhaps {what}{_shown(entry)}"
+        return f"{said}; this recording cannot tell it from {others}."
     if entry.effect is None:
         whose = "the model and its tolerance" if _tight(diagnosis) else "the model"
-        return f"{_corrected(diagnosis, entry)}; correct {whose}{_or(entry)}."
-    title, worth = plain(entry.name).capitalize(), _size(entry.signal, entry.size)
-    size = f"worth {worth} of {entry.signal.value} (rms)"
-    if diagnosis.verdict is Verdict.UNEXPLAINED:
-        return f"{title} comes nearest, {size}, and does not explain what is seen."
-    return (
-        f"{title} is at work, {size}: {entry.effect.shows}; so"
-        f" {entry.effect.remedy}{_or(entry)}."
-    )
+        return f"{what[0].upper()}{what[1:]}; correct {whose}."
+    return f"The model lacks {what}{_shown(entry)}; so {entry.effect.remedy}."
+
+
+def _effect(entry: Named) -> str:
+    worth = _size(entry.signal, entry.size)
+    return f"{plain(entry.name)}, worth {worth} of {entry.signal.value} (rms)"
+
+
+def _shown(entry: Named) -> str:
+    return f": {entry.effect.shows}" if entry.effect else ""
 
 
 def _corrected(diagnosis: Diagnosis, entry: Named) -> str:
     """Say what a constant is instead.
 
-    Written as "The diameter is 18.6 ± 0.1 mm, not 20 mm".
+    Written as "the diameter is 18.61 ± 0.12 mm, not 20 mm".
     """
     assert entry.path is not None
     (estimate,) = entry.parameters.values()
@@ -67,11 +83,12 @@ def _corrected(diagnosis: Diagnosis, entry: Named) -> str:
         for one in diagnosis.found.problem.constants
         if one.path == entry.path
     )
-    doubt = f"{estimate.std / key.factor:.2g}"
-    return (
-        f"The {key.title} is {key.shown(estimate.value)} (± {doubt}),"
-        f" not {key.shown(nominal)}"
+    value, doubt = (
+        fixed(one / key.factor, estimate.std / key.factor)
+        for one in (estimate.value, estimate.std)
     )
+    size = f"{value} ± {doubt} {key.spelt}".rstrip()
+    return f"the {key.title} is {size}, not {key.shown(nominal)}"
 
 
 def _told(entries: Sequence[Named]) -> str:
@@ -113,20 +130,26 @@ def _closed(diagnosis: Diagnosis) -> str:
     )
 
 
+def _still_open(diagnosis: Diagnosis) -> str:
+    if diagnosis.main is None:
+        return ""
+    gap = diagnosis.gaps[diagnosis.main]
+    left, floor = (
+        _size(gap.signal, size) for size in (gap.recalibrated, gap.noise_floor)
+    )
+    return (
+        f"; with better constants the {gap.signal.value} is still off by {left} on"
+        f" data it never saw, and repeats by {floor}"
+    )
+
+
 def _open(diagnosis: Diagnosis) -> str:
     rivals = [
         f"{plain(one.name)} from {listed(list(map(plain, one.equivalents)), 'or')}"
         for one in diagnosis.named
         if one.equivalents
     ]
-    return listed(rivals)
-
-
-def _or(entry: Named) -> str:
-    if not entry.equivalents:
-        return ""
-    others = listed(list(map(plain, entry.equivalents)), "or")
-    return f"; this recording cannot tell it from {others}"
+    return ", nor ".join(rivals)
 
 
 def _size(signal: Signal, size: float) -> str:
@@ -146,12 +169,12 @@ def span(finding: Finding, name: str) -> str:
     return " to ".join(dict.fromkeys(ends))
 
 
-def contradicted(found: Contradiction) -> str:
-    """Say what contradicts what.
+def contradicted(found: Contradiction, most: int = SHOWN) -> str:
+    """Say what contradicts what, with so many sweeps by name on either side.
 
     Written as "force_N of a, b differs from that of c by 310 N at the same place".
     """
-    runs, others = (_some(names) for names in (found.runs, found.others))
+    runs, others = (_some(names, most) for names in (found.runs, found.others))
     return (
         f"{found.column} of {runs} differs from that of {others} by"
         f" {abs(found.difference):.3g} {found.unit} at the same place, and repeats by"
@@ -188,8 +211,8 @@ def reasons(diagnosis: Diagnosis) -> dict[str, list[str]]:
     return found
 
 
-def _some(names: Sequence[str]) -> str:
-    shown = list(names[:SHOWN])
+def _some(names: Sequence[str], most: int) -> str:
+    shown = list(names[:most])
     if more := len(names) - len(shown):
         shown.append(f"{more} more")
     return listed(shown)

@@ -5,6 +5,7 @@ import pytest
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.named import Estimate, Named
 from gripperd.diagnose.recording import Contradiction
 from gripperd.diagnose.statement import offered, reasons, span, statement, summary
 from gripperd.diagnose.where import Finding
@@ -19,19 +20,77 @@ def creep() -> Diagnosis:
     return example(Hidden.CREEP)[1]
 
 
+def diameter(*equivalents: str) -> Named:
+    return Named(
+        "parameter:muscle.diameter", "-", None, "muscle.diameter",
+        {"muscle.diameter": Estimate(18.3142e-3, 0.0937e-3)}, 178.0, Signal.FORCE,
+        equivalents, 1e-20, -300.0, 0.5,
+    )  # fmt: skip
+
+
 def test_a_statement_says_how_it_shows_and_what_to_do(creep: Diagnosis) -> None:
     entry = replace(creep.named[0], size=12.04)
     assert statement(creep, entry) == (
-        "Creep is at work, worth 12 N of force (rms):"
+        "The model lacks creep, worth 12 N of force (rms):"
         f" {Creep.shows}; so {Creep.remedy}."
+    )
+
+
+def test_a_wrong_constant_is_told_no_finer_than_it_is_known(creep: Diagnosis) -> None:
+    assert statement(creep, diameter()) == (
+        "The diameter is 18.314 ± 0.094 mm, not 20 mm; correct the model."
+    )
+
+
+def test_what_has_rivals_asks_for_no_remedy(creep: Diagnosis) -> None:
+    rival = replace(creep.named[0], size=12.04, equivalents=("leak", "valve_lag"))
+    assert statement(creep, rival) == (
+        f"Perhaps creep, worth 12 N of force (rms): {Creep.shows};"
+        " this recording cannot tell it from leak or valve lag."
+    )
+    assert statement(creep, diameter("braid_extensibility")) == (
+        "Perhaps the diameter is 18.314 ± 0.094 mm, not 20 mm; this recording cannot"
+        " tell it from braid extensibility."
     )
 
 
 def test_what_is_not_established_is_not_claimed(creep: Diagnosis) -> None:
     unexplained = replace(creep, verdict=Verdict.UNEXPLAINED)
-    said = statement(unexplained, creep.named[0])
-    assert said.startswith("Creep comes nearest, worth ")
-    assert "at work" not in said
+    entry = replace(creep.named[0], size=12.04)
+    assert statement(unexplained, entry) == (
+        "Nearest, and no explanation of what is seen: creep, worth 12 N of force (rms)."
+    )
+
+
+def test_an_open_question_does_not_hide_what_is_sure(creep: Diagnosis) -> None:
+    gap = replace(creep.gaps[Signal.FORCE], before=29.65, after=2.617, noise_floor=3.04)
+    sure = creep.named[0]
+    lag = replace(sure, name="valve_lag", equivalents=("channel_delay",))
+    two = replace(
+        creep,
+        verdict=Verdict.AMBIGUOUS,
+        named=(sure, diameter("tapered_ends", "leak"), lag),
+        gaps={Signal.FORCE: gap},
+    )
+    assert summary(two) == (
+        "The model lacks creep, and this recording cannot tell a wrong diameter from"
+        " tapered ends or leak, nor valve lag from channel delay; on data it never saw"
+        " the force is off by 2.62 N instead of 29.6 N, and repeats by 3.04 N."
+    )
+    assert summary(replace(two, named=(lag,))).startswith(
+        "The model is off, and this recording cannot tell valve lag from channel delay;"
+    )
+
+
+def test_what_is_unexplained_says_how_much_is_left(creep: Diagnosis) -> None:
+    gap = replace(creep.gaps[Signal.FORCE], recalibrated=22.22, noise_floor=6.99)
+    told = replace(creep, verdict=Verdict.UNEXPLAINED, gaps={Signal.FORCE: gap})
+    assert summary(told) == (
+        "The model is off, and no effect of the library explains it; with better"
+        " constants the force is still off by 22.2 N on data it never saw, and repeats"
+        " by 6.99 N."
+    )
+    assert summary(replace(told, main=None)).endswith("explains it.")
 
 
 def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:
