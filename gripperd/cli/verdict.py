@@ -11,9 +11,20 @@ from gripperd.cli.model import PIPE_WIDTH
 from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.document import UNNAMED
+from gripperd.diagnose.figures import chance, fixed, stopped
 from gripperd.diagnose.gap import Gap
-from gripperd.diagnose.key import keys_of, public
-from gripperd.diagnose.statement import offered, reasons, span, statement, summary
+from gripperd.diagnose.key import Key, keys_of, public
+from gripperd.diagnose.named import Named
+from gripperd.diagnose.statement import (
+    contradicted,
+    left_out,
+    offered,
+    reasons,
+    span,
+    statement,
+    summary,
+)
 from gripperd.diagnose.where import Finding
 from gripperd.model.effect import Signal
 
@@ -47,16 +58,16 @@ def show(diagnosis: Diagnosis) -> None:
         ("where the recalibrated model is off", _where(diagnosis)),
         (
             "how far measured and predicted are apart, on held-out runs",
-            _gaps(diagnosis.gaps, diagnosis.main) if diagnosis.gaps else None,
+            _gaps(diagnosis, diagnosis.gaps) if diagnosis.gaps else None,
         ),
         (
             "the same where no other sweep went: extrapolation",
             _extrapolation(diagnosis),
         ),
-        ("what is left depends", _lines(diagnosis.signature)),
+        ("what is left, in words", _lines(diagnosis.signature)),
         ("what could be taken off", _lines(list(map(offered, diagnosis.corrections)))),
         ("what to run next", _lines(_next(diagnosis))),
-        ("left out", _lines(_rejected(diagnosis))),
+        ("left out", _lines(left_out(diagnosis.recording.rejected))),
         ("contradictions", _lines(_contradictions(diagnosis))),
         ("remarks", _lines(diagnosis.recording.remarks)),
         ("not testable here", _lines(_untested(diagnosis))),
@@ -80,21 +91,26 @@ def _effects(diagnosis: Diagnosis) -> Group | None:
     )
     for entry in diagnosis.named:
         keys = keys_of(entry)
-        numbers = [
-            f"{keys[name].text} {one.value / keys[name].factor:.4g}"
-            f" ± {one.std / keys[name].factor:.2g}"
-            for name, one in entry.parameters.items()
-        ]
+        numbers = [_number(entry, name, key) for name, key in keys.items()]
         table.add_row(
             public(entry.name),
             entry.stage,
             "\n".join(numbers),
-            f"{entry.p_value:.1g}",
+            chance(entry.p_value),
             f"{entry.delta_bic:.0f}",
             "\n".join(map(public, entry.equivalents)) or "-",
         )
     said = [Text(statement(diagnosis, entry)) for entry in diagnosis.named]
     return Group(*said, Text(), table)
+
+
+def _number(entry: Named, name: str, key: Key) -> str:
+    one = entry.parameters[name]
+    value, doubt = (
+        fixed(size / key.factor, one.std / key.factor) for size in (one.value, one.std)
+    )
+    held = ", at its bound" if stopped(entry, name) else ""
+    return f"{key.text} {value} ± {doubt}{held}"
 
 
 def _where(diagnosis: Diagnosis) -> Table | None:
@@ -104,7 +120,7 @@ def _where(diagnosis: Diagnosis) -> Table | None:
     for one in diagnosis.where[:PLACES]:
         table.add_row(
             one.stage, one.run, _region(one), _sized(one.signal, one.bias),
-            f"{one.p_value:.1g}",
+            chance(one.p_value),
         )  # fmt: skip
     if more := len(diagnosis.where) - PLACES:
         table.add_row("", f"and {more} more", "", "", "") if more > 0 else None
@@ -124,16 +140,17 @@ def _extrapolation(diagnosis: Diagnosis) -> Group | None:
     beyond = diagnosis.extrapolation
     if beyond is None:
         return None
-    return Group(Text(", ".join(beyond.runs)), _gaps(beyond.gaps, diagnosis.main))
+    return Group(Text(", ".join(beyond.runs)), _gaps(diagnosis, beyond.gaps))
 
 
-def _gaps(gaps: Mapping[Signal, Gap], main: Signal | None) -> Table:
-    table = Table(
-        "", "as it came", "recalibrated", "with what was found", "noise floor", box=None
-    )
+def _gaps(diagnosis: Diagnosis, gaps: Mapping[Signal, Gap]) -> Table:
+    adds = diagnosis.verdict not in UNNAMED
+    after = ["with what was found"] if adds else []
+    table = Table("", "as it came", "recalibrated", *after, "noise floor", box=None)
     for signal, gap in gaps.items():
-        sizes = (gap.before, gap.recalibrated, gap.after, gap.noise_floor)
-        style = "bold" if signal is main else ""
+        left = [gap.after] if adds else []
+        sizes = (gap.before, gap.recalibrated, *left, gap.noise_floor)
+        style = "bold" if signal is diagnosis.main else ""
         table.add_row(
             signal.value, *(_sized(signal, size) for size in sizes), style=style
         )
@@ -153,19 +170,9 @@ def _next(diagnosis: Diagnosis) -> list[str]:
     return [f"{title}{proposal.why}"]
 
 
-def _rejected(diagnosis: Diagnosis) -> list[str]:
-    return [
-        f"{one.run}: {one.count} of {one.column}, {one.reason}"
-        for one in diagnosis.recording.rejected
-    ]
-
-
 def _contradictions(diagnosis: Diagnosis) -> list[str]:
-    return [
-        f"{', '.join(one.runs)} against {', '.join(one.others)}: {one.column} differs"
-        f" by {one.difference:.3g} {one.unit}, repeats by {one.spread:.2g} {one.unit}"
-        for one in diagnosis.recording.contradictions
-    ]
+    found = diagnosis.recording.contradictions
+    return [contradicted(one, len(one.runs + one.others)) for one in found]
 
 
 def _untested(diagnosis: Diagnosis) -> list[str]:

@@ -9,7 +9,7 @@ from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.figures import fixed
 from gripperd.diagnose.key import key_of_constant, keys_of, plain, public
 from gripperd.diagnose.named import Named
-from gripperd.diagnose.recording import Contradiction
+from gripperd.diagnose.recording import Contradiction, Rejection
 from gripperd.diagnose.where import Finding
 from gripperd.model.effect import Signal
 
@@ -209,6 +209,21 @@ def reasons(diagnosis: Diagnosis) -> dict[str, list[str]]:
     for name, reason in diagnosis.untested.items():
         found.setdefault(reason, []).append(public(name))
     return found
+
+
+def left_out(rejected: Sequence[Rejection]) -> list[str]:
+    """Say what was left out, a line for each reason in a column.
+
+    Written as "446 of force_N in a, b, c, d and 15 more, exactly 0 N".
+    """
+    groups: dict[tuple[str, str], list[Rejection]] = {}
+    for one in rejected:
+        groups.setdefault((one.column, one.reason), []).append(one)
+    return [
+        f"{sum(one.count for one in group)} of {column} in"
+        f" {_some([one.run for one in group], SHOWN)}, {reason}"
+        for (column, reason), group in groups.items()
+    ]
 
 
 def _some(names: Sequence[str], most: int) -> str:

@@ -20,7 +20,12 @@ ALONG = {
     Kind.ISOBARIC: "contraction",
     Kind.CYCLE: "contraction",
 }
-DASHES = {State.NOMINAL: ":", State.RECALIBRATED: "--", State.EXPLAINED: "-"}
+DASHES = {
+    State.NOMINAL: ":",
+    State.RECALIBRATED: "--",
+    State.EXPLAINED: "-",
+    State.NEAREST: "-",
+}
 
 
 def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:

@@ -8,7 +8,14 @@ from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.key import public
-from gripperd.diagnose.statement import offered, reasons, statement, summary
+from gripperd.diagnose.statement import (
+    contradicted,
+    left_out,
+    offered,
+    reasons,
+    statement,
+    summary,
+)
 from gripperd.report import rows
 from gripperd.reproduce.extra import not_installed
 
@@ -90,6 +97,11 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
         "title": TITLES[diagnosis.verdict],
         "sentence": summary(diagnosis),
         "recording": recording,
+        "contradictions": [
+            contradicted(one, len(one.runs + one.others))
+            for one in recording.contradictions
+        ],
+        "left_out": left_out(recording.rejected),
         "statements": [
             {"name": public(entry.name), "text": statement(diagnosis, entry)}
             for entry in diagnosis.named

@@ -8,10 +8,11 @@ import numpy as np
 from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.correction import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.document import UNNAMED
+from gripperd.diagnose.figures import bounds, chance, fixed, stopped
 from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import CONSTANTS, keys_of, public
 from gripperd.diagnose.statement import span
-from gripperd.model.parameter import parameters
 from gripperd.reproduce.chapters import Table
 
 RANKED = 12
@@ -52,7 +53,8 @@ def gap_bars(diagnosis: Diagnosis, gap: Gap) -> Bars:
         "with what was found": gap.after,
         "noise floor": gap.noise_floor,
     }
-    if not diagnosis.named:
+    adds = diagnosis.verdict not in UNNAMED
+    if not adds:
         del sizes["with what was found"]
     top = max(sizes.values()) or 1.0
     lines = tuple(
@@ -65,7 +67,7 @@ def gap_bars(diagnosis: Diagnosis, gap: Gap) -> Bars:
         for label, size in sizes.items()
     )
     caption = f"{gap.signal.value}: root mean square of measured minus predicted"
-    if diagnosis.named:
+    if adds:
         low, high = (end / column.scale for end in gap.ci95_after)
         caption += f"; with what was found {low:.3g} to {high:.3g} {column.unit} (95 %)"
     return Bars(caption, lines, gap.noise_floor / top)
@@ -118,18 +120,23 @@ def numbers(diagnosis: Diagnosis) -> Table | None:
 
 def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
     for entry in diagnosis.named:
-        known = parameters(entry.effect) if entry.effect else {}
         for name, key in keys_of(entry).items():
-            one = entry.parameters[name]
-            ends = [one.value + side * NORMAL_95 * one.std for side in (-1, 1)]
-            limits = [known[name].low, known[name].high] if name in known else []
+            one, limits = entry.parameters[name], bounds(entry, name)
+            half = NORMAL_95 * one.std
+            ends = np.clip([one.value - half, one.value + half], *limits).tolist()
+            value, doubt, low, high = (
+                fixed(size / key.factor, one.std / key.factor)
+                for size in (one.value, one.std, *ends)
+            )
+            reach = " to ".join(f"{end / key.factor:.4g}" for end in limits)
+            held = ", reached" if stopped(entry, name) else ""
             yield (
                 public(entry.name),
                 key.text,
-                f"{one.value / key.factor:.4g}",
-                f"{one.std / key.factor:.2g}",
-                " to ".join(f"{end / key.factor:.4g}" for end in ends),
-                " to ".join(f"{end / key.factor:.4g}" for end in limits) or "-",
+                value,
+                doubt,
+                f"{low} to {high}",
+                f"{reach}{held}" if np.isfinite(limits).all() else "-",
             )
 
 
@@ -180,10 +187,12 @@ def places(diagnosis: Diagnosis) -> Table | None:
             one.stage,
             f"{one.bias / BY_QUANTITY[one.signal.value].scale:+.3g}"
             f" {BY_QUANTITY[one.signal.value].unit}",
-            f"{one.p_value:.0e}",
+            chance(one.p_value),
             *(span(one, name) for name in ("time", "pressure", "contraction")),
         )
         for one in diagnosis.where[:PLACES]
     )
-    columns = ("run", "stage", "off by", "p", "t [s]", "p [kPa]", "contraction")
+    columns = (
+        "run", "stage", "off by", "p-value", "t [s]", "pressure [kPa]", "contraction"
+    )  # fmt: skip
     return Table("Where, with better constants alone", columns, rows) if rows else None

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.problem import Problem
 from gripperd.diagnose.recording import Kind
 from gripperd.model.effect import Signal
@@ -23,6 +24,7 @@ class State(StrEnum):
     NOMINAL = "as it came"
     RECALIBRATED = "better constants"
     EXPLAINED = "with what was found"
+    NEAREST = "with what came nearest"
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class Trace:
     """Since the start of the sweep. [s]"""
     measured: Array
     expected: Mapping[State, Array]
-    """Nothing with what was found when nothing was."""
+    """Nothing but the model itself when nothing was found."""
     levels: Mapping[str, Array]
     """Of those regressors that were measured, by quantity."""
     direction: Array
@@ -56,7 +58,9 @@ def traces(diagnosis: Diagnosis, signal: Signal) -> tuple[Trace, ...]:
         State.RECALIBRATED: diagnosis.recalibrated,
     }
     if diagnosis.named:
-        points[State.EXPLAINED] = diagnosis.explained
+        established = diagnosis.verdict not in UNNAMED
+        last = State.EXPLAINED if established else State.NEAREST
+        points[last] = diagnosis.explained
     expected = {
         state: whole.expected(whole.explanation(point))
         for state, point in points.items()

@@ -8,11 +8,14 @@ from gripperd.demo.rig import Hidden
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.extrapolation import Extrapolation
+from gripperd.diagnose.named import Estimate
 from gripperd.diagnose.next_experiment import Proposal
 from gripperd.diagnose.recording import Contradiction, Kind, Rejection
 from gripperd.diagnose.statement import summary
 from gripperd.errors import InputError
+from gripperd.model.effect import Signal
 from gripperd.report import page
+from gripperd.report.trace import traces
 from gripperd.reproduce.extra import not_installed
 from tests.demonstration import example
 from tests.diagnose.offered import around, bump
@@ -137,6 +140,40 @@ def test_what_was_left_out_is_told_and_cannot_break_the_page(creep: Diagnosis) -
     text = written(replace(creep, recording=recording))
     assert "7 of force_N in &lt;b&gt;run, frozen" in text
     assert "12.5 N" in text
+
+
+def test_what_was_left_out_for_one_reason_is_one_line(creep: Diagnosis) -> None:
+    found = [Rejection(f"run_{n}", "force_N", n, "frozen") for n in range(1, 8)]
+    text = written(
+        replace(creep, recording=replace(creep.recording, rejected=tuple(found)))
+    )
+    said = "28 of force_N in run_1, run_2, run_3, run_4 and 3 more, frozen"
+    assert text.count("Left out:") == 1
+    assert said in text
+
+
+def test_a_number_is_no_finer_than_its_doubt_nor_beyond_its_bound(
+    creep: Diagnosis,
+) -> None:
+    (found,) = creep.named
+    estimates = dict(found.parameters) | {"slow": Estimate(0.15, 0.0312)}
+    text = written(replace(creep, named=(replace(found, parameters=estimates),)))
+    cells = ("slow", "0.150", "0.031", "0.089 to 0.150", "-0.15 to 0.15, reached")
+    assert "".join(f"<td>{cell}</td>" for cell in cells) in text
+
+
+def test_no_p_value_is_0(creep: Diagnosis) -> None:
+    sure = tuple(replace(one, p_value=0.0) for one in creep.where)
+    text = written(replace(creep, where=sure))
+    assert "<td>&lt; 1e-99</td>" in text
+    assert "0e+00" not in text
+
+
+def test_what_came_nearest_is_not_drawn_as_found(creep: Diagnosis) -> None:
+    open_still = replace(creep, verdict=Verdict.UNEXPLAINED)
+    assert "with what was found" not in written(open_still)
+    drawn = [str(one) for one in traces(open_still, Signal.FORCE)[0].expected]
+    assert drawn == ["as it came", "better constants", "with what came nearest"]
 
 
 def test_a_correction_has_a_picture_and_is_called_no_physics(creep: Diagnosis) -> None:

@@ -1,0 +1,56 @@
+from dataclasses import replace
+
+import pytest
+
+from gripperd.cli.verdict import show
+from gripperd.demo.rig import Hidden
+from gripperd.diagnose.conclude import Verdict
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.named import Estimate
+from gripperd.diagnose.recording import Contradiction, Rejection
+from tests.demonstration import example
+
+
+@pytest.fixture(scope="module")
+def creep() -> Diagnosis:
+    return example(Hidden.CREEP)[1]
+
+
+def told(diagnosis: Diagnosis, capsys: pytest.CaptureFixture[str]) -> str:
+    show(diagnosis)
+    return capsys.readouterr().out
+
+
+def test_a_number_says_when_a_bound_holds_it(
+    creep: Diagnosis, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (found,) = creep.named
+    estimates = {"slow": Estimate(0.15, 0.0312), "time": Estimate(0.5359, 0.094)}
+    entry = replace(found, parameters=estimates, p_value=0.0)
+    text = told(replace(creep, named=(entry,)), capsys)
+    assert "slow 0.150 ± 0.031, at its bound" in text
+    assert "time_s 0.536 ± 0.094 " in text
+    assert " < 1e-99 " in text
+
+
+@pytest.mark.parametrize("verdict", [Verdict.NONE, Verdict.UNEXPLAINED])
+def test_what_is_not_established_has_no_gap_of_its_own(
+    creep: Diagnosis, capsys: pytest.CaptureFixture[str], verdict: Verdict
+) -> None:
+    text = told(replace(creep, verdict=verdict), capsys)
+    assert "recalibrated  noise floor" in text
+    assert "with what was found" not in text
+
+
+def test_what_was_left_out_is_a_line_for_each_reason(
+    creep: Diagnosis, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rejected = tuple(Rejection(f"run_{n}", "force_N", n, "frozen") for n in (1, 2, 3))
+    clash = Contradiction(("a",), ("b", "c"), "force_N", -129.0, "N", 4.9)
+    recording = replace(creep.recording, rejected=rejected, contradictions=(clash,))
+    text = told(replace(creep, recording=recording), capsys)
+    assert "  6 of force_N in run_1, run_2 and run_3, frozen\n" in text
+    assert (
+        "force_N of a differs from that of b and c by 129 N at the same place, and"
+        " repeats by 4.9 N"
+    ) in text
