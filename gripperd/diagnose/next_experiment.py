@@ -70,7 +70,10 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
         if gain > WORTH and (best is None or rate > best[0]):
             best = rate, sweep, gain
     if best is None:
-        why = f"no sweep of this rig tells {names}: check the sensors with a reference"
+        why = (
+            f"no sweep of this rig tells {names}: measure one of them on its own, or"
+            " check the sensors with a reference"
+        )
         return Proposal(None, why, "", {}, 0.0)
     _, sweep, gain = best
     return Proposal(sweep.kind, f"separates {names}", sweep.title, _plan(sweep), gain)
@@ -160,7 +163,7 @@ def _warmed(sweep: Sweep, kelvin: float) -> Sweep:
 
 
 def _grid(duration: float) -> Array:
-    return np.arange(0.0, duration, SAMPLING)
+    return np.linspace(0.0, duration, round(duration / SAMPLING) + 1)
 
 
 def _triangle(time: Array, duration: float) -> Array:
@@ -169,7 +172,8 @@ def _triangle(time: Array, duration: float) -> Array:
 
 def _ramp(kind: Kind, top: float, contraction: float, duration: float) -> Sweep:
     time = _grid(duration)
-    title = f"pressure up to {top / 1e3:.0f} kPa and back in {duration:g} s"
+    place = f"contraction {contraction:.3g}" if contraction else "rest length"
+    title = f"pressure up to {top / 1e3:.0f} kPa and back in {duration:g} s at {place}"
     pressure = top * _triangle(time, duration)
     return Sweep(kind, title, time, pressure, np.full_like(time, contraction))
 
@@ -194,7 +198,10 @@ def _nested(pressure: float, far: float) -> Sweep:
 def _step(pressure: float, contraction: float) -> Sweep:
     time = _grid(120.0)
     rise = np.where(time < 5.0, 0.1, 1.0) * pressure
-    title = f"step to {pressure / 1e3:.0f} kPa and hold 115 s"
+    title = (
+        f"step to {pressure / 1e3:.0f} kPa and hold 115 s at contraction"
+        f" {contraction:.3g}"
+    )
     return Sweep(Kind.STEP, title, time, rise, np.full_like(time, contraction))
 
 

@@ -6,7 +6,7 @@ from gripperd.diagnose.columns import BY_QUANTITY, Column
 from gripperd.diagnose.next_experiment import Proposal
 from gripperd.diagnose.recording import Kind
 from gripperd.model.track import Array
-from gripperd.report.trace import State, Trace
+from gripperd.report.trace import State, Trace, elided
 from gripperd.report.where import COLOURS
 from gripperd.reproduce.drawing import BLUE, INK, MUTED, VERMILION, canvas
 from gripperd.reproduce.picture import Picture
@@ -15,6 +15,8 @@ MOST = 3
 """Sweeps shown side by side."""
 DOTS = 400
 """Samples drawn of each."""
+TITLE = 24
+"""Letters that fit above one of them."""
 ALONG = {
     Kind.ISOMETRIC: "pressure",
     Kind.ISOBARIC: "contraction",
@@ -53,7 +55,7 @@ def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:
             )
             lower.plot(x[rows], one.residual(state)[rows], lw=1.2, **look)
         lower.axhline(0, color=INK, lw=0.8)
-        upper.set_title(one.run)
+        upper.set_title(elided(one.run, TITLE))
         lower.set_xlabel(label)
     unit = column.unit or "-"
     grid[0, 0].set_ylabel(f"{column.quantity} [{unit}]")
@@ -83,7 +85,8 @@ def plan(proposal: Proposal | None) -> Picture | None:
         axes.margins(y=0.15)
     upper.set_ylabel("pressure [kPa]")
     lower.set(ylabel="contraction [-]", xlabel="time [s]")
-    caption = f"{proposal.title}: {proposal.why}."
+    title = proposal.title[:1].upper() + proposal.title[1:]
+    caption = f"{title}: {proposal.why}."
     return Picture("plan", "The sweep to run next", caption, caption, drawing)
 
 
@@ -91,5 +94,5 @@ def _along(one: Trace) -> tuple[str, Array]:
     """What a sweep was swept along, or time."""
     name = ALONG.get(one.kind) if one.kind else None
     if name is None or name not in one.levels:
-        return "time [s]", one.time
+        return "time in the sweep [s]", one.time
     return f"{name} [{BY_QUANTITY[name].unit or '-'}]", one.levels[name]

@@ -113,6 +113,7 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
         "places": rows.places(diagnosis),
         "ranking": rows.ranking(diagnosis),
         "contenders": rows.contenders(diagnosis),
+        "overruled": rows.overruled(diagnosis),
         "numbers": rows.numbers(diagnosis),
         "constants": rows.constants(diagnosis),
         "open": [

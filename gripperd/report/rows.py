@@ -12,6 +12,7 @@ from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.figures import bounds, chance, fixed, stopped
 from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import CONSTANTS, keys_of, public
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.statement import span
 from gripperd.reproduce.chapters import Table
 
@@ -19,6 +20,9 @@ RANKED = 12
 """Candidates listed with their gain."""
 PLACES = 12
 """Findings listed; the document has all."""
+NARROW_SPACE = "\u202f"
+IDLE = 0.05
+"""Loss of evidence below which something more changed nothing at all. [nat]"""
 NORMAL_95 = 1.96
 """Half width of the central 95 % of a normal law. [standard deviations]"""
 
@@ -82,7 +86,12 @@ def ranking(diagnosis: Diagnosis) -> Bars | None:
     top = max(gains[0][1], found.threshold)
     names = {entry.name for entry in diagnosis.named}
     lines = tuple(
-        Bar(public(name), f"{gain:.0f}", max(gain, 0.0) / top, chosen=name in names)
+        Bar(
+            public(name),
+            f"{gain:,.0f}".replace(",", "\u202f"),
+            max(gain, 0.0) / top,
+            chosen=name in names,
+        )
         for name, gain in gains
     )
     caption = (
@@ -92,23 +101,35 @@ def ranking(diagnosis: Diagnosis) -> Bars | None:
     return Bars(caption, lines, found.threshold / top)
 
 
-def contenders(diagnosis: Diagnosis) -> Table | None:
+def contenders(diagnosis: Diagnosis) -> Table:
     """Explanations that were fitted in full, best first."""
-    contest = diagnosis.contest
-    rivals = [contest.best, *(one for row in contest.rivals for one in row)]
-    rivals += [one for one in diagnosis.found.rivals if one.names]
+    told = diagnosis.contest.best
     rows: dict[tuple[str, ...], tuple[str, ...]] = {}
-    for rival in sorted(rivals, key=lambda one: -one.evidence):
+    for rival in sorted(_fitted(diagnosis), key=lambda one: -one.evidence):
         names = tuple(sorted(map(public, rival.names)))
-        behind = contest.best.evidence - rival.evidence
+        behind = told.evidence - rival.evidence
+        if set(rival.names) > set(told.names) and 0 <= behind < IDLE:
+            continue
         misfit = 1 + rival.excess / rival.fit.samples
         label = " + ".join(names) or "better constants alone"
         rows.setdefault(names, (label, f"{behind:.1f}", f"{misfit:.2f}"))
     return Table(
         "Explanations fitted in full",
-        ("explanation", "behind the best [nat]", "χ² per sample"),
+        ("explanation", "behind what is told [nat]", "χ² per sample"),
         tuple(list(rows.values())[:RANKED]),
     )
+
+
+def overruled(diagnosis: Diagnosis) -> bool:
+    """Whether something else than what is told has more evidence."""
+    told = diagnosis.contest.best.evidence
+    return any(one.evidence > told for one in _fitted(diagnosis))
+
+
+def _fitted(diagnosis: Diagnosis) -> list[Rival]:
+    contest = diagnosis.contest
+    rivals = [contest.best, *(one for row in contest.rivals for one in row)]
+    return rivals + [one for one in diagnosis.found.rivals if one.names]
 
 
 def numbers(diagnosis: Diagnosis) -> Table | None:
@@ -193,6 +214,6 @@ def places(diagnosis: Diagnosis) -> Table | None:
         for one in diagnosis.where[:PLACES]
     )
     columns = (
-        "run", "stage", "off by", "p-value", "t [s]", "pressure [kPa]", "contraction"
+        "run", "stage", "off by", "p-value", "time [s]", "pressure [kPa]", "contraction"
     )  # fmt: skip
     return Table("Where, with better constants alone", columns, rows) if rows else None

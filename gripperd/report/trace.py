@@ -33,6 +33,8 @@ class Trace:
 
     run: str
     kind: Kind | None
+    start: float
+    """Of the sweep, since the start of the recording. [s]"""
     time: Array
     """Since the start of the sweep. [s]"""
     measured: Array
@@ -92,6 +94,7 @@ def _trace(
     return Trace(
         run=course.run,
         kind=course.kind,
+        start=float(course.time[0]),
         time=course.time[good] - course.time[0],
         measured=column.written(whole.measured[index]),
         expected={state: column.written(values) for state, values in expected.items()},
@@ -99,6 +102,15 @@ def _trace(
         direction=course.direction[good],
         held_out=kept[block.course][good],
     )
+
+
+def elided(name: str, most: int) -> str:
+    """Shorten a name to its end, which is where the names of sweeps differ.
+
+    >>> elided("2022-12-07_181607_step_exp", 12)
+    '…07_step_exp'
+    """
+    return name if len(name) <= most else f"…{name[1 - most :]}"
 
 
 def joined(found: tuple[Trace, ...], state: State) -> Array:

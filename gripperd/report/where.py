@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from gripperd.diagnose.columns import BY_QUANTITY, Column
 from gripperd.model.track import Array
-from gripperd.report.trace import REGRESSORS, State, Trace, joined, level
+from gripperd.report.trace import REGRESSORS, State, Trace, elided, joined, level
 from gripperd.reproduce.drawing import BLUE, INK, MUTED, PURPLE, VERMILION, canvas
 from gripperd.reproduce.picture import Picture
 
@@ -30,6 +30,12 @@ LEAST = 4
 """Samples of a bin that is shown."""
 DOTS = 3000
 """Samples drawn over time; more would only make the page heavy."""
+NAME = 0.04
+"""Least distance of two names of sweeps, of the width."""
+CLOCK = 0.07
+"""Least distance of two times, of the width."""
+LETTERS = 16
+"""Letters of such a name; more would take the room of the picture."""
 SATURATED = 98
 """Percentile of the means of the cells that has the full colour."""
 
@@ -89,17 +95,19 @@ def over_time(found: tuple[Trace, ...], column: Column, floor: float) -> Picture
             )
     for edge in starts[1:-1]:
         axes.axvline(edge, color=MUTED, lw=0.5, alpha=0.6)
-    _name_runs(axes, found, starts)
+    _mark_runs(axes, found, starts)
     _noise(axes, floor)
     _legend(drawing, _shown(found))
     axes.set(
-        xlabel="time of measurement, without the rests [s]",
+        xlabel="time of the recording, rests left out [s]",
         ylabel=_residual(column),
         xlim=(starts[0], starts[-1]),
     )
     caption = (
         "Measured minus predicted, sweep after sweep. Grey sweeps took no part in the"
         " fit. The dotted lines are two standard deviations of the measurement itself."
+        " Each sweep begins at the time below its left edge; where there is room, its"
+        " name stands above."
     )
     alt = f"Residual over {starts[-1]:.0f} seconds in {len(found)} sweeps."
     return Picture("over_time", "Residual against time", caption, alt, drawing)
@@ -140,8 +148,8 @@ def against_regressors(
         row[0].set_ylabel(_residual(column))
     _legend(drawing, _shown(found))
     caption = (
-        "Mean of measured minus predicted along each quantity: full dots while the"
-        " muscle contracts, rings while it extends. Dots on the line at 0 are a model"
+        "Mean of measured minus predicted along each quantity: rings while the"
+        " muscle extends, full dots otherwise. Dots on the line at 0 are a model"
         " that knows the quantity's part."
     )
     alt = f"Mean residual along {', '.join(names)} and time, before and after."
@@ -203,14 +211,26 @@ def _means(values: Array, residual: Array) -> tuple[Array, Array]:
     return means[0], means[1]
 
 
-def _name_runs(axes: Axes, found: tuple[Trace, ...], starts: Array) -> None:
+def _mark_runs(axes: Axes, found: tuple[Trace, ...], starts: Array) -> None:
+    """Write when sweeps begin below them, and their names above."""
     top = axes.get_xaxis_transform()
-    for one, start, end in zip(found, starts[:-1], starts[1:], strict=True):
-        if end - start > 0.02 * starts[-1]:
-            axes.text(
-                (start + end) / 2, 1.02, one.run, transform=top, color=MUTED,
-                fontsize=8, rotation=35, ha="left", va="bottom",
-            )  # fmt: skip
+    for index in spaced(starts[:-1], NAME * float(starts[-1])):
+        axes.text(
+            starts[index], 1.02, elided(found[index].run, LETTERS), transform=top,
+            color=MUTED, fontsize=8, rotation=35, ha="left", va="bottom",
+        )  # fmt: skip
+    shown = spaced(starts[:-1], CLOCK * float(starts[-1]))
+    times = [f"{found[index].start:.0f}" for index in shown]
+    axes.set_xticks(starts[shown], times)
+
+
+def spaced(places: Array, least: float) -> list[int]:
+    """Choose from the first place on, so that none is nearer than this to another."""
+    chosen = [0]
+    for index, place in enumerate(places):
+        if place - places[chosen[-1]] >= least:
+            chosen.append(index)
+    return chosen
 
 
 def _noise(axes: Axes, floor: float) -> None:

@@ -111,6 +111,14 @@ def test_the_plan_can_be_run_on_the_rig(held: Proposal, looped: Proposal) -> Non
         assert contraction.max() <= 0.205
 
 
+def test_the_plan_says_how_long_the_muscle_is_and_comes_home(held: Proposal) -> None:
+    time, pressure, contraction = (
+        _column(held, name) for name in ("t_s", "pressure_kPa", "contraction")
+    )
+    assert (time[-1], pressure[-1], contraction.max()) == (20.0, 0.0, 0.0)
+    assert held.title.endswith("at rest length")
+
+
 def test_the_corners_of_the_plan_are_the_sweep(looped: Proposal) -> None:
     time, way = _column(looped, "t_s"), _column(looped, "contraction")
     speed = np.abs(np.diff(way) / np.diff(time))

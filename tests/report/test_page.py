@@ -8,9 +8,11 @@ from gripperd.demo.rig import Hidden
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.extrapolation import Extrapolation
+from gripperd.diagnose.key import public
 from gripperd.diagnose.named import Estimate
 from gripperd.diagnose.next_experiment import Proposal
 from gripperd.diagnose.recording import Contradiction, Kind, Rejection
+from gripperd.diagnose.rival import Rival
 from gripperd.diagnose.statement import summary
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
@@ -174,6 +176,32 @@ def test_what_came_nearest_is_not_drawn_as_found(creep: Diagnosis) -> None:
     assert "with what was found" not in written(open_still)
     drawn = [str(one) for one in traces(open_still, Signal.FORCE)[0].expected]
     assert drawn == ["as it came", "better constants", "with what came nearest"]
+
+
+def at_cost(rival: Rival, cost: float) -> Rival:
+    return replace(rival, fit=replace(rival.fit, cost=cost))
+
+
+def test_what_adds_nothing_is_no_explanation_of_its_own(creep: Diagnosis) -> None:
+    best = creep.contest.best
+    other = next(one for one in creep.found.rivals if "creep" not in one.names)
+    more = replace(best, candidates=(*best.candidates, *other.candidates))
+    name = " + ".join(sorted(map(public, more.names)))
+    for loss, is_told in ((0.0, False), (4.0, True)):
+        rival = at_cost(more, best.fit.cost + loss)
+        contest = replace(creep.contest, rivals=((rival,),))
+        found = replace(creep.found, rivals=())
+        text = written(replace(creep, contest=contest, found=found))
+        assert (f"{name}</th>" in text) is is_told
+
+
+def test_it_says_why_more_evidence_may_be_passed_over(
+    creep: Diagnosis, text: str
+) -> None:
+    assert "ahead by evidence alone" not in text
+    ahead = at_cost(creep.found.rivals[0], creep.contest.best.fit.cost - 1e3)
+    contest = replace(creep.contest, rivals=((ahead,),))
+    assert "ahead by evidence alone" in written(replace(creep, contest=contest))
 
 
 def test_a_correction_has_a_picture_and_is_called_no_physics(creep: Diagnosis) -> None:

@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+
+from gripperd.demo.rig import Hidden
+from gripperd.diagnose.columns import BY_QUANTITY
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.model.effect import Signal
+from gripperd.report.trace import Trace, elided, traces
+from gripperd.report.where import over_time, spaced
+from tests.demonstration import example
+
+
+@pytest.fixture(scope="module")
+def creep() -> Diagnosis:
+    return example(Hidden.CREEP)[1]
+
+
+@pytest.fixture(scope="module")
+def found(creep: Diagnosis) -> tuple[Trace, ...]:
+    return traces(creep, Signal.FORCE)
+
+
+def test_the_clock_of_a_picture_is_that_of_the_recording(
+    creep: Diagnosis, found: tuple[Trace, ...]
+) -> None:
+    picture = over_time(found, BY_QUANTITY["force"], 3.0)
+    (axes,) = picture.drawing.axes
+    firsts = [float(run.columns["time"][0]) for run in creep.recording.runs]
+    begins = {f"{first:.0f}" for first in firsts}
+    told = [label.get_text() for label in axes.get_xticklabels()]
+    assert len(told) > 5
+    assert set(told) <= begins
+
+
+def test_no_two_marks_are_nearer_than_they_may_be() -> None:
+    places = np.array([0.0, 1.0, 2.5, 4.9, 5.0, 9.0])
+    assert spaced(places, 2.5) == [0, 2, 4, 5]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("step_0", "step_0"), ("2022-12-07_1816_step", "…07_1816_step")]
+)
+def test_a_long_name_keeps_the_end_by_which_it_differs(name: str, said: str) -> None:
+    assert elided(name, 13) == said
