@@ -46,7 +46,9 @@ def alike(one: Run, other: Run) -> bool:
             continue
         k = min(n, m)
         reach = max(np.nanmax(np.abs(a), initial=0.0), REACH.get(name, 0.0))
-        gap = np.nanmean(np.abs(a[:k] - b[:k])) if k else inf
+        apart = np.abs(a[:k] - b[:k])
+        known = apart[~np.isnan(apart)]
+        gap = np.mean(known) if known.size else inf
         if not gap <= 0.03 * reach:
             return False
     return True

@@ -69,4 +69,6 @@ class SupplySaturation(InValve):
         round_off = self.softness * (high - low)
         if not round_off:
             return positive_part(above)
-        return round_off * np.logaddexp(0.0, above / round_off)
+        # What was not measured is not known here either.
+        with np.errstate(invalid="ignore"):
+            return round_off * np.logaddexp(0.0, above / round_off)

@@ -69,5 +69,7 @@ class ThresholdPressure(InMuscle):
             return positive_part(pressure + self.pressure) - above - self.pressure
         more = (pressure + self.pressure) / (2 * self.softness)
         less = (pressure - self.pressure) / (2 * self.softness)
-        held: Real = np.logaddexp(more, -more) - np.logaddexp(less, -less)
+        # What was not measured is not known here either.
+        with np.errstate(invalid="ignore"):
+            held: Real = np.logaddexp(more, -more) - np.logaddexp(less, -less)
         return self.softness * held

@@ -45,6 +45,16 @@ def test_a_single_repeat_is_no_row() -> None:
     assert np.isnan(_row(0.1, 0.1, 0.0)).all()
 
 
+def test_sweeps_without_a_reading_in_common_are_not_alike() -> None:
+    first, second = np.full(400, np.nan), np.full(400, np.nan)
+    first[:200] = second[200:] = 0.1
+    one, other = (
+        run("a", pressure=triangle(), contraction=contraction)
+        for contraction in (first, second)
+    )
+    assert not alike(one, other)
+
+
 def test_sweeps_are_alike_when_they_ask_the_same() -> None:
     one = run(pressure=triangle(), contraction=np.full(400, 0.1), force=triangle())
     other = run(pressure=triangle() + 5e3, contraction=np.full(400, 0.1), force=WAY)

@@ -32,6 +32,12 @@ def test_a_soft_corner_is_rounded_and_far_from_it_the_same() -> None:
     assert effect.settled(900e3, SPAN) == pytest.approx(400e3, abs=0.01)
 
 
+def test_a_reading_that_is_missing_stays_so_in_silence() -> None:
+    effect = SupplySaturation(share=1.0, limit=0.8, softness=0.03)
+    asked = np.array([np.nan, 0.0])
+    assert np.isnan(effect.settled(asked, SPAN)).tolist() == [True, False]
+
+
 def test_the_ceiling_sinks_with_a_supply_that_is_measured(muscle: Muscle) -> None:
     effect = SupplySaturation(share=1.0, limit=0.9)
     supply = np.array([600e3, 600e3, 590e3, 500e3])

@@ -64,3 +64,9 @@ def test_its_pressure_is_found_again_from_the_pull(
     pressure = np.linspace(90e3, 500e3, 5)
     force = late.force(pressure, contraction)
     assert late.pressure(force, contraction) == pytest.approx(pressure, abs=1e-3)
+
+
+def test_a_reading_that_is_missing_stays_so_in_silence(muscle: Muscle) -> None:
+    late = StaticMuscle(muscle, (ThresholdPressure(60e3, 15e3),))
+    force = late.force(np.array([np.nan, 300e3]), 0.1)
+    assert np.isnan(force).tolist() == [True, False]
