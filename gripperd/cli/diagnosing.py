@@ -83,14 +83,15 @@ def _found(recording: Path, model: "ModelFile", seed: int) -> "Diagnosis":
         from gripperd.effects import EFFECTS
         from gripperd.recordings import read_recording
 
-        return found(
-            read_recording(recording),
-            model.explanation(),
-            model.tolerances,
-            EFFECTS,
-            seed,
-            tell,
-        )
+        read = read_recording(recording)
+        try:
+            return found(
+                read, model.explanation(), model.tolerances, EFFECTS, seed, tell
+            )
+        except InputError as broken:
+            # The diagnosis knows no files: it names the recording.
+            said = str(broken).removeprefix(f"{read.name}: ")
+            raise InputError(f"{recording}: {said}", key=broken.key) from None
 
 
 def _write_json(found: "Diagnosis", model: "ModelFile", place: str) -> None:

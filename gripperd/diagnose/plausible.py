@@ -11,7 +11,8 @@ from gripperd.model.track import Array
 BELIEVED = (0.27, 3.5)
 """Measured over predicted: real muscles with all their threshold, rubber and bore stay
 within a factor of three, the nearest mistaken unit (lbf for N) is off by 4.4. [-]"""
-COLUMNS = {Signal.FORCE: "force_N", Signal.PRESSURE: "pressure_kPa"}
+COLUMNS = {Signal.PRESSURE: "pressure_kPa", Signal.FORCE: "force_N"}
+"""Along the chain: a pressure in bar makes the force look wrong as well."""
 MISTAKEN = {
     Signal.FORCE: {"lbf": 0.2248, "kgf": 0.1020, "kN": 1e-3, "mN": 1e3},
     Signal.PRESSURE: {"bar": 1e-2, "psi": 0.1450, "MPa": 1e-3, "Pa": 1e3},

@@ -150,13 +150,15 @@ def reversed_rows(text: str) -> str:
     return "\n".join([header, *reversed(rows)])
 
 
-def scaled(factor: float, every: int = 1) -> Callable[[str], str]:
-    """Let the force of every so many runs be read in another unit."""
+def scaled(
+    factor: float, every: int = 1, column: str = "force_N"
+) -> Callable[[str], str]:
+    """Let a column of every so many runs be read in another unit."""
 
     def other(text: str) -> str:
         header, *lines = text.splitlines()
         rows = [line.split(",") for line in lines]
-        place = header.split(",").index("force_N")
+        place = header.split(",").index(column)
         names = list(dict.fromkeys(row[0] for row in rows))
         for row in rows:
             if names.index(row[0]) % every == 0:
@@ -191,6 +193,8 @@ LBF = 0.2248
         (reversed_rows, "t_s runs backwards"),
         (lambda _text: "", "is empty"),
         (scaled(LBF), "is it in lbf"),
+        (scaled(0.01, column="pressure_kPa"), "column pressure_kPa is 0.0"),
+        (scaled(100.0, column="contraction"), "is it a ratio"),
         (lambda text: text.replace("force_N", "force_lbf"), "expected in N"),
     ],
     ids=[
@@ -202,6 +206,8 @@ LBF = 0.2248
         "backwards",
         "empty",
         "lbf for N",
+        "bar for kPa",
+        "percent for a ratio",
         "lbf by name",
     ],
 )
@@ -210,7 +216,7 @@ def test_an_unusable_recording_is_one_clear_message(
 ) -> None:
     path = done.folder / "spoilt.csv"
     path.write_text(spoilt((done.folder / "rig.csv").read_text()))
-    refused(str(path), done.at("model.yaml"), path.stem, complaint)
+    refused(str(path), done.at("model.yaml"), str(path), complaint)
 
 
 @pytest.mark.parametrize("factor", [LBF, 2.5], ids=["lbf in half", "two muscles"])
