@@ -135,7 +135,7 @@ def _fitted(diagnosis: Diagnosis) -> list[Rival]:
 def numbers(diagnosis: Diagnosis) -> Table | None:
     """Everything fitted of what was found, with intervals."""
     rows = tuple(_numbers(diagnosis))
-    columns = ("of", "parameter", "value", "± 1 sigma", "95 % interval", "bounds")
+    columns = ("of", "parameter", "value", "± 1 sigma", "95 % interval", "at bound")
     return Table("Parameters", columns, rows) if rows else None
 
 
@@ -149,15 +149,13 @@ def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
                 fixed(size / key.factor, one.std / key.factor)
                 for size in (one.value, one.std, *ends)
             )
-            reach = " to ".join(f"{end / key.factor:.4g}" for end in limits)
-            held = ", reached" if stopped(entry, name) else ""
             yield (
                 public(entry.name),
                 key.text,
                 value,
                 doubt,
                 f"{low} to {high}",
-                f"{reach}{held}" if np.isfinite(limits).all() else "-",
+                "yes" if stopped(entry, name) else "-",
             )
 
 

@@ -13,14 +13,14 @@ from matplotlib.lines import Line2D
 from gripperd.diagnose.columns import BY_QUANTITY, Column
 from gripperd.model.track import Array
 from gripperd.report.trace import REGRESSORS, State, Trace, elided, joined, level
-from gripperd.reproduce.drawing import BLUE, INK, MUTED, PURPLE, VERMILION, canvas
+from gripperd.reproduce.drawing import BLUE, INK, MUTED, VERMILION, canvas
 from gripperd.reproduce.picture import Picture
 
 COLOURS = {
     State.NOMINAL: MUTED,
     State.RECALIBRATED: VERMILION,
     State.EXPLAINED: BLUE,
-    State.NEAREST: PURPLE,
+    State.NEAREST: BLUE,
 }
 CELLS = (22, 16)
 """Cells of a map, across and up."""

@@ -160,7 +160,7 @@ def test_a_number_is_no_finer_than_its_doubt_nor_beyond_its_bound(
     (found,) = creep.named
     estimates = dict(found.parameters) | {"slow": Estimate(0.15, 0.0312)}
     text = written(replace(creep, named=(replace(found, parameters=estimates),)))
-    cells = ("slow", "0.150", "0.031", "0.089 to 0.150", "-0.15 to 0.15, reached")
+    cells = ("slow", "0.150", "0.031", "0.089 to 0.150", "yes")
     assert "".join(f"<td>{cell}</td>" for cell in cells) in text
 
 
