@@ -139,8 +139,13 @@ def _apply(
 
 def _check_place(place: Path | None) -> None:
     """Complain before the work, not after it."""
-    if place is not None and not place.parent.is_dir():
+    if place is None:
+        return
+    if not place.parent.is_dir():
         message = f"{place}: there is no folder {place.parent}"
+        raise InputError(message)
+    if place.is_dir():
+        message = f"{place}: is a folder; name a file in it"
         raise InputError(message)
 
 

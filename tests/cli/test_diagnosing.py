@@ -295,13 +295,20 @@ def test_an_unusable_model_is_one_clear_message(
     refused(done.at("rig.csv"), done.at(model), model, complaint)
 
 
-def test_a_place_that_is_not_there_is_told_before_the_work(done: Done) -> None:
+@pytest.mark.parametrize("option", ["--report", "--json"])
+@pytest.mark.parametrize(
+    ("place", "complaint"),
+    [("nowhere/found", "there is no folder"), (".", "is a folder")],
+)
+def test_a_place_that_cannot_be_is_told_before_the_work(
+    done: Done, option: str, place: str, complaint: str
+) -> None:
     ended = gripperd(
         "diagnose", done.at("rig.csv"), "--model", done.at("model.yaml"),
-        "--report", done.at("nowhere/found.html"),
+        option, done.at(place),
     )  # fmt: skip
     assert ended.returncode == 2
-    assert "there is no folder" in ended.stderr
+    assert complaint in ended.stderr
     assert ended.stdout == ""
 
 
