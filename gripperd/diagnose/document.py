@@ -9,6 +9,7 @@ from gripperd.diagnose.columns import BY_QUANTITY, Column
 from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.correction_document import correction_document
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.figures import UNLIKELY
 from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import keys_of, number, public
 from gripperd.diagnose.named import Named
@@ -127,7 +128,7 @@ def _effect(diagnosis: Diagnosis, entry: Named) -> Document:
         },
         "equivalents": [public(name) for name in entry.equivalents],
         "evidence": {
-            "p_value": number(entry.p_value),
+            "p_value": number(max(entry.p_value, UNLIKELY)),
             "delta_bic": number(entry.delta_bic),
             "heldout_gain": number(entry.heldout_gain),
         },
@@ -144,7 +145,7 @@ def _finding(finding: Finding) -> Document:
         "bias": number(finding.bias / column.scale),
         "std": number(finding.std / column.scale),
         "unit": column.unit,
-        "p_value": number(finding.p_value),
+        "p_value": number(max(finding.p_value, UNLIKELY)),
     }
 
 

@@ -154,6 +154,14 @@ def test_a_wrong_constant_says_what_it_is_instead(creep: Diagnosis) -> None:
     )
 
 
+def test_no_chance_is_written_as_zero(creep: Diagnosis) -> None:
+    sure = replace(creep.named[0], p_value=0.0)
+    where = (replace(creep.where[0], p_value=0.0),)
+    said = written(replace(creep, named=(sure,), where=where))
+    assert said["effects"][0]["evidence"]["p_value"] == 1e-99
+    assert said["where"][0]["p_value"] == 1e-99
+
+
 def test_rivals_are_told(creep: Diagnosis) -> None:
     entry = replace(
         creep.named[0], equivalents=("valve_lag", "parameter:valve.pressure_high")
