@@ -14,6 +14,8 @@ PLAIN = 0.0115
 about 2 %, and anywhere within is as likely (2 % / root 3). [-]"""
 TOLERATED = 2.0
 """How far a part may be off, in sigma of its tolerance; beyond it is another part."""
+MADE = 3**0.5
+"""The same of a part without a stated tolerance: the end of those 2 %."""
 NUISANCE = 2.6
 """The same of what has no tolerance, such as the zero of a sensor."""
 
@@ -70,7 +72,9 @@ class Constant:
     @property
     def reach(self) -> float:
         """How far it may be off, in sigma."""
-        return TOLERATED if self.path.partition(".")[0] in PARTS else NUISANCE
+        if self.path.partition(".")[0] not in PARTS:
+            return NUISANCE
+        return TOLERATED if self.stated else MADE
 
     @property
     def course(self) -> int | None:

@@ -126,7 +126,17 @@ def test_it_changes_what_the_chain_says(
 
 
 def test_a_part_is_off_by_two_sigma_at_most_what_has_no_tolerance_by_more() -> None:
-    listed = constants(JAWED, {}, SCALES, [2])
-    for one in listed:
+    stated = {"muscle.diameter": 2e-4}
+    (bore,) = (one for one in constants(JAWED, stated, SCALES, [2]) if one.stated)
+    assert bore.reach * bore.sigma == 4e-4
+    for one in constants(JAWED, stated, SCALES, [2]):
         is_part = one.path.startswith(("muscle.", "valve.", "gripper."))
-        assert one.reach == (2.0 if is_part else 2.6), one.path
+        assert is_part or one.reach == 2.6, one.path
+
+
+@pytest.mark.parametrize(
+    "path", ["muscle.diameter", "valve.pressure_high", "gripper.ratio"]
+)
+def test_a_part_without_a_tolerance_is_off_by_2_percent_at_most(path: str) -> None:
+    (one,) = (one for one in constants(JAWED, {}, SCALES, [2]) if one.path == path)
+    assert one.reach * one.sigma == pytest.approx(0.02 * one.nominal, rel=0.005)
