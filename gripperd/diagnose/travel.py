@@ -8,6 +8,8 @@ from gripperd.model.track import Array
 
 TRAVEL = 1.5e-3
 """Contraction that must be undone before a travel counts as reversed. [-]"""
+BEGUN = 0.4
+"""Share of it from which the way back has begun: less is noise. [-]"""
 STILL = 4e-3
 """A sweep within this range of contraction has no travel. [-]"""
 STUCK = 0.06
@@ -29,24 +31,25 @@ def leaning(load: Array) -> Array:
 
 def travel(way: Array, least: float) -> Array:
     """Sign of travel along a way, turning where it turned; 0 before the first."""
-    return compiled(_travel)(way, least)
+    return compiled(_travel)(way, least, BEGUN)
 
 
-def _travel(way: Array, least: float) -> Array:
+def _travel(way: Array, least: float, begun: float) -> Array:
     out = np.zeros_like(way)
     sign = 0.0
-    extreme = way[0]
-    turned = 0
+    extreme, top = way[0], 0
     for i in range(way.size):
         gone = (way[i] - extreme) * (sign if sign != 0.0 else 1.0)
         if sign != 0.0 and gone >= 0:
-            extreme, turned = way[i], i
-        elif abs(gone) < 0.2 * least:
-            # Still on the plateau: the way back begins at its end.
-            turned = i
+            extreme, top = way[i], i
         elif abs(gone) > least:
             sign = 1.0 if way[i] > extreme else -1.0
-            out[turned + 1 : i] = sign
-            extreme, turned = way[i], i
+            plateau = i
+            while abs(way[plateau] - extreme) > begun * least:
+                plateau -= 1
+            # A turn is round: what is gone grows with the square of the time.
+            before = (i - plateau) / (begun**-0.5 - 1)
+            out[max(int(plateau - before), top) + 1 : i] = sign
+            extreme, top = way[i], i
         out[i] = sign
     return out

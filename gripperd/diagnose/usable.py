@@ -6,7 +6,7 @@ from scipy.ndimage import uniform_filter1d
 from gripperd.diagnose.course import Course, is_table
 from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.stages import INPUTS
-from gripperd.diagnose.travel import leaning
+from gripperd.diagnose.travel import BEGUN, TRAVEL, leaning
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -81,9 +81,17 @@ def _turning(sign: Array) -> Mask:
 
 
 def _reversals(course: Course) -> Mask:
-    """Samples next to a reversal: which side of it they lie on is not known."""
+    """Samples next to a reversal: which side of it they lie on is not known.
+
+    As many before it as after it, until the way back is seen to have begun.
+    """
     turned = np.diff(course.direction, prepend=course.direction[0]) != 0
-    return _widened(turned, 2)
+    near, way = _widened(turned, 2), course.level("contraction")
+    for place in np.flatnonzero(turned).tolist():
+        begun = np.abs(way[place:] - way[place - 1]) > BEGUN * TRAVEL
+        reach = int(np.argmax(begun))
+        near[max(place - reach, 0) : place + reach] = True
+    return near
 
 
 def _widened(near: Mask, reach: int) -> Mask:

@@ -27,3 +27,20 @@ def test_under_a_steady_load_joints_stick() -> None:
 
 def test_joints_without_a_load_do_not_rub() -> None:
     np.testing.assert_array_equal(leaning(np.zeros(5)), 0.0)
+
+
+def test_a_round_turn_is_where_the_way_is_longest() -> None:
+    # 10 % there and back as a sine of 28 s, 25 samples a second.
+    time = np.arange(0.0, 28.0, 0.04)
+    way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
+    turned = time[np.flatnonzero(np.diff(travel(way, 1.5e-3)) == -2)]
+    np.testing.assert_allclose(turned, [14.0], atol=0.09)
+
+
+def test_the_way_back_from_a_hold_begins_at_its_end_whatever_its_noise() -> None:
+    there = np.linspace(0.0, 0.1, 100)
+    hold = np.full(500, 0.1)
+    hold[10] += 5e-4
+    signs = travel(np.concatenate([there, hold, there[::-1]]), 1.5e-3)
+    (turned,) = np.flatnonzero(np.diff(signs) == -2)
+    assert abs(turned - 600) <= 5

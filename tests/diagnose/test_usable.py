@@ -36,6 +36,18 @@ def test_samples_next_to_a_reversal_say_nothing_of_the_force(
     assert bad[bad > 10].tolist() == list(range(turn - 1, turn + 4))
 
 
+def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
+    time = np.arange(0.0, 28.0, 0.04)
+    way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
+    told = run(contraction=way, pressure=np.full(time.size, 3e5), force=0 * time + 500)
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE, 1.0)
+    # 6e-4 of 10 % are gone 0.7 s after the turn.
+    near = np.abs(time - 14.0)
+    assert not good[near < 0.55].any()
+    assert good[(near > 0.85) & (time > 2)].all()
+
+
 def test_samples_next_to_a_step_of_pressure_are_left_out() -> None:
     step = np.where(np.arange(100) < 50, 0.006, 0.012)
     told = run(current=step, pressure=REGULATOR.gain * (step - 0.004))
