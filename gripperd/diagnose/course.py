@@ -18,6 +18,8 @@ LEAP = 0.02
 TURNED, LEAST_TURNED = 0.02, 3e3
 """Pressure that must be undone before it counts as reversed: share of its range, and
 at least. [-, Pa]"""
+PLATEAU = 0.2
+"""Share of it that is noise of a plateau. [-]"""
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,8 @@ class Course:
 def _inflating(pressure: Array) -> Array:
     if not np.isfinite(pressure).all():
         return np.zeros_like(pressure)
-    return travel(pressure, max(TURNED * float(np.ptp(pressure)), LEAST_TURNED))
+    least = max(TURNED * float(np.ptp(pressure)), LEAST_TURNED)
+    return travel(pressure, least, PLATEAU * least)
 
 
 def joined(courses: Sequence[Course]) -> Course:

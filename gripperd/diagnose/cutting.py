@@ -12,7 +12,7 @@ from gripperd.diagnose.noise import Noise, coarse_step, quick_noise
 from gripperd.diagnose.recording import Recording, Run
 from gripperd.diagnose.row import rows
 from gripperd.diagnose.smoothing import Smooth
-from gripperd.diagnose.travel import STILL, TRAVEL, travel
+from gripperd.diagnose.travel import STILL, TRAVEL, noticed, travel
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
@@ -110,7 +110,7 @@ def _directions(contraction: Smooth | None, time: Array) -> Array:
         return np.zeros_like(time)
     if np.ptp(contraction.value) < STILL:
         return np.zeros_like(time)
-    return travel(contraction.value, TRAVEL)
+    return travel(contraction.value, TRAVEL, noticed(contraction.variance**0.5))
 
 
 def _stillness(sweep: Run) -> Array:

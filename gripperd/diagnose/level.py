@@ -9,12 +9,16 @@ from scipy.optimize import isotonic_regression
 from gripperd.diagnose.noise import Noise
 from gripperd.diagnose.recording import Run
 from gripperd.diagnose.smoothing import Smooth, smooth
-from gripperd.diagnose.travel import STILL, TRAVEL, leaning, travel
+from gripperd.diagnose.travel import STILL, TRAVEL, leaning, noticed, travel
 from gripperd.model.memory import begin, lag
 
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
 LATE = (1e-3, 0.03, 0.1, 0.3, 1.0)
 """Lags tried between command and pressure. [s]"""
+LEAP = 0.06
+"""Share of the range of the command from which one sample is a step. [-]"""
+QUICK = 0.04
+"""Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
 LEAST = 20
@@ -43,7 +47,7 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
     }
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
-        found["contraction"] = _steady(found["contraction"], STILL, TRAVEL)
+        found["contraction"] = _steady(found["contraction"])
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(sweep, found["pressure"], noises)
     if {"pressure", "contraction", "force"} <= found.keys():
@@ -58,7 +62,7 @@ def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
     return smooth(time, contraction, variance, SUPPLE)
 
 
-def _steady(known: Smooth, still: float, least: float) -> Smooth:
+def _steady(known: Smooth) -> Smooth:
     """Take the wiggles out: there is no travel below the least, and none back.
 
     What remembers would take each wiggle for a reversal. Between reversals the column
@@ -67,7 +71,10 @@ def _steady(known: Smooth, still: float, least: float) -> Smooth:
     value = known.value
     if not np.isfinite(value).all():
         return known
-    signs = travel(value, least) if np.ptp(value) >= still else 0.0 * value
+    still = np.ptp(value) < STILL
+    signs = (
+        0.0 * value if still else travel(value, TRAVEL, noticed(known.variance**0.5))
+    )
     cuts = [0, *(np.flatnonzero(np.diff(signs)) + 1), value.size]
     out = value.copy()
     for start, end in pairwise(cuts):
@@ -95,10 +102,14 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
     command = level + slope * current
     time, variance = sweep.columns["time"], noises["pressure"].slow_variance
     step = np.diff(time, prepend=time[0])
+    # Between two samples so far apart the pressure goes all the way, or none of it.
+    leaps = (np.abs(np.diff(command)) > LEAP * np.ptp(command)) & (step[1:] > QUICK)
+    beside_leap = np.append(leaps, False) | np.insert(leaps, 0, False)
     best = plain
     for late in LATE:
         followed = lag(command, step, late, late, begin())
-        beside = smooth(time, pressure - followed, variance)
+        apart = np.where(beside_leap, np.nan, pressure - followed)
+        beside = smooth(time, apart, variance)
         if beside.likelihood > best.likelihood:
             rate = beside.rate + np.gradient(followed, time)
             best = beside._replace(value=beside.value + followed, rate=rate)

@@ -8,8 +8,10 @@ from gripperd.model.track import Array
 
 TRAVEL = 1.5e-3
 """Contraction that must be undone before a travel counts as reversed. [-]"""
-BEGUN = 0.4
-"""Share of it from which the way back has begun: less is noise. [-]"""
+NOTICED = (0.2 * TRAVEL, 0.4 * TRAVEL)
+"""The least and the most of it that tells when the way back began. [-]"""
+CLEAR = 1.5
+"""The same in sigma of the noise that was taken off. [-]"""
 STILL = 4e-3
 """A sweep within this range of contraction has no travel. [-]"""
 STUCK = 0.06
@@ -29,9 +31,24 @@ def leaning(load: Array) -> Array:
     return stop(load, radius, begin()) / radius
 
 
-def travel(way: Array, least: float) -> Array:
-    """Sign of travel along a way, turning where it turned; 0 before the first."""
-    return compiled(_travel)(way, least, BEGUN)
+def noticed(noise: float) -> float:
+    """Way back of a contraction that is told from noise (one sigma). [-]."""
+    return float(np.clip(CLEAR * noise, *NOTICED))
+
+
+def travel(way: Array, least: float, begun: float = 0.0) -> Array:
+    """Sign of travel along a way, turning where it turned; 0 before the first.
+
+    Parameters
+    ----------
+    way
+        What goes there and back, shape ``(n,)``. [any]
+    least
+        How much must be undone before it counts as reversed. [of the way]
+    begun
+        How much is undone when the way back is seen to have begun. [of the way]
+    """
+    return compiled(_travel)(way, least, begun)
 
 
 def _travel(way: Array, least: float, begun: float) -> Array:
@@ -44,12 +61,16 @@ def _travel(way: Array, least: float, begun: float) -> Array:
             extreme, top = way[i], i
         elif abs(gone) > least:
             sign = 1.0 if way[i] > extreme else -1.0
-            plateau = i
-            while abs(way[plateau] - extreme) > begun * least:
+            plateau = i - 1
+            while abs(way[plateau] - extreme) > begun:
                 plateau -= 1
-            # A turn is round: what is gone grows with the square of the time.
-            before = (i - plateau) / (begun**-0.5 - 1)
-            out[max(int(plateau - before), top) + 1 : i] = sign
+            # A round turn leaves with the square of the time, and as it came.
+            root = np.sqrt(begun / least)
+            left = (i - plateau - 1) * root / (1 - root)
+            came = 0
+            while came < top and abs(way[top - came] - extreme) <= begun:
+                came += 1
+            out[plateau - int(min(left, came, plateau - top)) + 1 : i] = sign
             extreme, top = way[i], i
         out[i] = sign
     return out

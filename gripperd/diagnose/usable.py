@@ -1,12 +1,14 @@
 """Samples of a sweep that say something about a stage."""
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from gripperd.diagnose.course import Course, is_table
 from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.stages import INPUTS
-from gripperd.diagnose.travel import BEGUN, TRAVEL, leaning
+from gripperd.diagnose.travel import TRAVEL, leaning, noticed
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -20,6 +22,9 @@ OFF = 3.0
 CORNER = 0.001
 """Share of the largest reading up to which a cut corner does not matter: the error
 of good pressure transmitters. [-]"""
+
+PRESSED = 5.0
+"""Standard deviations of its noise from which a grip is one. [-]"""
 
 LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
@@ -43,13 +48,14 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
         good &= np.isfinite(course.level(name))
     if signal is Signal.GRIP:
         # Without contact the jaws are moved by the muscle alone and press on nothing.
-        good &= (measured > 5 * noise) & np.isfinite(course.column("force"))
+        good &= (measured > PRESSED * noise) & np.isfinite(course.column("force"))
         good &= ~_turning(leaning(course.level("force")))
     sweeps = "pressure" in course.smooth and not is_table((course,))
     if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):
         good &= ~_transients(course)
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
+        good &= ~_stuck(course)
     return good
 
 
@@ -85,13 +91,35 @@ def _reversals(course: Course) -> Mask:
 
     As many before it as after it, until the way back is seen to have begun.
     """
-    turned = np.diff(course.direction, prepend=course.direction[0]) != 0
-    near, way = _widened(turned, 2), course.level("contraction")
+    sign, way = course.direction, course.level("contraction")
+    turned = np.diff(sign, prepend=sign[0]) != 0
+    near, seen = _widened(turned, 2), noticed(course.hush("contraction"))
+    start = 0
     for place in np.flatnonzero(turned).tolist():
-        begun = np.abs(way[place:] - way[place - 1]) > BEGUN * TRAVEL
-        reach = int(np.argmax(begun))
+        furthest = np.max(sign[place - 1] * way[start:place])
+        reach = int(np.argmax(furthest - sign[place - 1] * way[place:] > seen))
         near[max(place - reach, 0) : place + reach] = True
+        start = place
     return near
+
+
+def _stuck(course: Course) -> Mask:
+    """Samples in which jaws hold on and do not follow a pressure that has turned.
+
+    The muscle goes by less than is measured, or sticks: until its contraction has
+    followed, its friction lies anywhere between the two directions.
+    """
+    grip, way = np.nan_to_num(course.level("grip")), course.level("contraction")
+    holds = (grip > PRESSED * course.hush("grip")) & (grip > 0)
+    ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
+    stuck = np.zeros_like(holds)
+    for start, end in ends.reshape(-1, 2).tolist():
+        sign = course.inflating[start:end]
+        turns = start + 1 + np.flatnonzero(np.diff(sign))
+        for turn, after in pairwise([*turns.tolist(), end]):
+            gone = course.inflating[turn] * (way[turn:after] - way[turn])
+            stuck[turn:after] = ~np.logical_or.accumulate(gone > TRAVEL)
+    return _widened(stuck, 2)
 
 
 def _widened(near: Mask, reach: int) -> Mask:

@@ -34,6 +34,18 @@ def test_pressure_keeps_the_corner_of_its_command() -> None:
     assert course.level("pressure")[CORNER] == pytest.approx(500e3, abs=1e3)
 
 
+def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None:
+    # Five samples a second of a regulator that follows within 15 ms.
+    command = np.repeat([100e3, 400e3, 200e3, 450e3], 100)
+    true = command.copy()
+    true[[100, 200, 300]] -= 0.5 * np.diff(command)[[99, 199, 299]]
+    time = np.linspace(0.0, 79.8, 400)
+    current = 0.004 + 0.016 * command / 500e3
+    (course,) = cut(run(time=time, current=current, pressure=true + noise(400, 2e3)))
+    left = (course.level("pressure") - true)[np.abs(np.arange(400) % 100 - 50) < 45]
+    assert np.std(left) < 0.5 * 2e3
+
+
 def _pulling(seed: int) -> tuple[Course, Array]:
     """Pressure to and fro in five strokes at a fixed length, and the force it makes."""
     way = np.abs((np.arange(SIZE) / 80.0) % 2.0 - 1.0)

@@ -33,7 +33,7 @@ def test_a_round_turn_is_where_the_way_is_longest() -> None:
     # 10 % there and back as a sine of 28 s, 25 samples a second.
     time = np.arange(0.0, 28.0, 0.04)
     way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
-    turned = time[np.flatnonzero(np.diff(travel(way, 1.5e-3)) == -2)]
+    turned = time[np.flatnonzero(np.diff(travel(way, 1.5e-3, 6e-4)) == -2)]
     np.testing.assert_allclose(turned, [14.0], atol=0.09)
 
 
@@ -41,6 +41,15 @@ def test_the_way_back_from_a_hold_begins_at_its_end_whatever_its_noise() -> None
     there = np.linspace(0.0, 0.1, 100)
     hold = np.full(500, 0.1)
     hold[10] += 5e-4
-    signs = travel(np.concatenate([there, hold, there[::-1]]), 1.5e-3)
+    signs = travel(np.concatenate([there, hold, there[::-1]]), 1.5e-3, 6e-4)
     (turned,) = np.flatnonzero(np.diff(signs) == -2)
     assert abs(turned - 600) <= 5
+
+
+def test_what_creeps_back_after_a_step_has_not_turned_before_it_is_seen() -> None:
+    since = np.arange(400.0)
+    creeping = 0.1 - 0.003 * (1 - np.exp(-since / 200.0))
+    signs = travel(np.append([0.0, 0.03, 0.07], creeping), 1.5e-3, 3e-4)
+    (turned,) = np.flatnonzero(np.diff(signs) == -2)
+    # 3e-4 of 3e-3 are undone after 200 ln(10 / 9) = 21 samples.
+    assert 3 + 21 - 4 <= turned <= 3 + 21

@@ -39,13 +39,44 @@ def test_samples_next_to_a_reversal_say_nothing_of_the_force(
 def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
     time = np.arange(0.0, 28.0, 0.04)
     way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
-    told = run(contraction=way, pressure=np.full(time.size, 3e5), force=0 * time + 500)
+    told = run(
+        contraction=way + noise(time.size, 4e-4),
+        pressure=np.full(time.size, 3e5),
+        force=np.full(time.size, 500.0),
+    )
     (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
     good = usable(course, Signal.FORCE, 1.0)
     # 6e-4 of 10 % are gone 0.7 s after the turn.
     near = np.abs(time - 14.0)
-    assert not good[near < 0.55].any()
-    assert good[(near > 0.85) & (time > 2)].all()
+    assert not good[near < 0.4].any()
+    assert good[(near > 1.2) & (time > 2)].all()
+
+
+@pytest.mark.parametrize(
+    ("given", "known_from"),
+    [
+        pytest.param(0.0, 301, id="a stone: when it is let go"),
+        # 4 % of contraction per 100 samples: 1.5e-3 are gone after 4.
+        pytest.param(0.04, 204, id="a sponge: when it has given way"),
+    ],
+)
+def test_jaws_that_hold_on_say_nothing_of_the_force_until_they_follow_the_pressure(
+    given: float, known_from: int
+) -> None:
+    # They meet an object at 100 and leave it at 300; the pressure turns at 200.
+    knots = [0, 100, 200, 300, 400]
+    sample = np.arange(401)
+    told = run(
+        pressure=np.interp(sample, knots, [0, 3e5, 5e5, 3e5, 0]) + noise(401, 300.0),
+        contraction=np.interp(sample, knots, [0, 0.1, 0.1 + given, 0.1, 0]),
+        grip=np.interp(sample, knots, [0, 0, 60, 0, 0]) + noise(401, 0.1, 3),
+        force=np.interp(sample, knots, [0, 300, 600, 300, 0]) + noise(401, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE, 1.0)
+    assert good[110:195].all()
+    assert not good[203 : known_from - 5].any()
+    assert good[known_from + 8 : 390].all()
 
 
 def test_samples_next_to_a_step_of_pressure_are_left_out() -> None:
