@@ -53,3 +53,9 @@ def test_what_creeps_back_after_a_step_has_not_turned_before_it_is_seen() -> Non
     (turned,) = np.flatnonzero(np.diff(signs) == -2)
     # 3e-4 of 3e-3 are undone after 200 ln(10 / 9) = 21 samples.
     assert 3 + 21 - 4 <= turned <= 3 + 21
+
+
+def test_the_first_way_begins_as_round_as_any() -> None:
+    time = np.arange(0.0, 28.0, 0.04)
+    way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
+    assert np.argmax(travel(way, 1.5e-3, 6e-4)) <= 4
