@@ -109,7 +109,7 @@ def _number(entry: Named, name: str, key: Key) -> str:
     value, doubt = (
         fixed(size / key.factor, one.std / key.factor) for size in (one.value, one.std)
     )
-    held = ", at its bound" if stopped(entry, name) else ""
+    held = ", at its bound" if stopped(one) else ""
     return f"{key.text} {value} ± {doubt}{held}"
 
 

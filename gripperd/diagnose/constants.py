@@ -15,7 +15,7 @@ about 2 %, and anywhere within is as likely (2 % / root 3). [-]"""
 TOLERATED = 2.0
 """How far a part may be off, in sigma of its tolerance; beyond it is another part."""
 MADE = 3**0.5
-"""The same of a part without a stated tolerance: the end of those 2 %."""
+"""The same of a part without a stated one: where what is anywhere within ends."""
 NUISANCE = 2.6
 """The same of what has no tolerance, such as the zero of a sensor."""
 

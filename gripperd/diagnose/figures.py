@@ -2,9 +2,10 @@
 
 from math import floor, inf, log10
 
-from gripperd.diagnose.named import Named
-from gripperd.model.parameter import parameters
+from gripperd.diagnose.named import Estimate
 
+DIGITS = 6
+"""Decimal places that no number is told beyond."""
 UNLIKELY = 1e-99
 """Chance below which its size says nothing any more. [-]"""
 
@@ -17,7 +18,7 @@ def fixed(value: float, std: float) -> str:
     """
     if not 0 < std < inf:
         return f"{value:.4g}"
-    places = 1 - floor(log10(std))
+    places = min(1 - floor(log10(std)), DIGITS)
     # Adding 0 turns what would read as -0 into 0.
     return f"{round(value, places) + 0.0:.{max(places, 0)}f}"
 
@@ -31,15 +32,8 @@ def chance(p_value: float) -> str:
     return f"< {UNLIKELY:g}" if p_value < UNLIKELY else f"{p_value:.1g}"
 
 
-def bounds(entry: Named, name: str) -> tuple[float, float]:
-    """Lowest and highest value that a fitted number may have. SI."""
-    known = parameters(entry.effect) if entry.effect else {}
-    return (known[name].low, known[name].high) if name in known else (-inf, inf)
-
-
-def stopped(entry: Named, name: str) -> bool:
+def stopped(one: Estimate) -> bool:
     """Whether a bound holds a fitted number: its interval is one-sided then."""
-    low, high = bounds(entry, name)
-    near = 1e-6 * (high - low)
-    value = entry.parameters[name].value
-    return high < inf and min(value - low, high - value) <= near
+    near = 1e-6 * (one.high - one.low)
+    ends = min(one.value - one.low, one.high - one.value)
+    return -inf < one.low < one.high < inf and ends <= near

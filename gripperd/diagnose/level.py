@@ -15,7 +15,7 @@ from gripperd.model.memory import begin, lag
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
 LATE = (1e-3, 0.03, 0.1, 0.3, 1.0)
 """Lags tried between command and pressure. [s]"""
-LEAP = 0.06
+STEP = 0.06
 """Share of the range of the command from which one sample is a step. [-]"""
 QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
@@ -102,14 +102,14 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
     command = level + slope * current
     time, variance = sweep.columns["time"], noises["pressure"].slow_variance
     step = np.diff(time, prepend=time[0])
-    # Between two samples so far apart the pressure goes all the way, or none of it.
-    leaps = (np.abs(np.diff(command)) > LEAP * np.ptp(command)) & (step[1:] > QUICK)
-    beside_leap = np.append(leaps, False) | np.insert(leaps, 0, False)
-    best = plain
+    # Samples so far apart tell nothing of how it went at a leap, but a trend would.
+    leaps = np.abs(np.diff(command, prepend=command[0])) > STEP * np.ptp(command)
+    unknown = leaps & (step > QUICK)
+    pressure = np.where(unknown, np.nan, pressure)
+    best = smooth(time, pressure, variance) if unknown.any() else plain
     for late in LATE:
         followed = lag(command, step, late, late, begin())
-        apart = np.where(beside_leap, np.nan, pressure - followed)
-        beside = smooth(time, apart, variance)
+        beside = smooth(time, pressure - followed, variance)
         if beside.likelihood > best.likelihood:
             rate = beside.rate + np.gradient(followed, time)
             best = beside._replace(value=beside.value + followed, rate=rate)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import exp
+from math import exp, inf
 
 import numpy as np
 
@@ -23,6 +23,9 @@ class Estimate:
 
     value: float
     std: float
+    low: float = -inf
+    """Beyond it nothing was sought."""
+    high: float = inf
 
 
 @dataclass(frozen=True)
@@ -99,15 +102,21 @@ def _estimates(
         shift = float(point.shifts[candidate.constant])
         value = constant.nominal + shift * constant.sigma
         std = width * float(variances[candidate.constant]) ** 0.5
-        return {constant.path.rpartition(".")[2]: Estimate(value, std)}
+        reach = width * float(problem.reach(point)[candidate.constant])
+        ends = constant.nominal - reach, constant.nominal + reach
+        return {constant.path.rpartition(".")[2]: Estimate(value, std, *ends)}
     start = point.shifts.size
-    stds = {
-        coordinate.parameter: coordinate.unit * float(variances[start + place]) ** 0.5
+    sought = {
+        coordinate.parameter: (
+            coordinate.unit * float(variances[start + place]) ** 0.5,
+            coordinate.low,
+            coordinate.high,
+        )
         for place, coordinate in enumerate(fit.coordinates)
         if coordinate.effect == effect.name
     }
     return {
-        name: Estimate(float(getattr(effect, name)), stds.get(name, 0.0))
+        name: Estimate(float(getattr(effect, name)), *sought.get(name, (0.0,)))
         for name, known in parameters(effect).items()
         if not known.choices
     }

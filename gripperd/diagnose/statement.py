@@ -26,8 +26,10 @@ def summary(diagnosis: Diagnosis) -> str:
         case Verdict.NAMED:
             return f"The model {_told(diagnosis.named)}{_tight(diagnosis)}{gap}."
         case Verdict.AMBIGUOUS:
-            firm = [one for one in diagnosis.named if not one.equivalents]
-            model = _told(firm) or "is off"
+            # Tolerances too tight are one finding: no constant of it stands alone.
+            sure = () if diagnosis.explained.looser else diagnosis.named
+            firm = [one for one in sure if not one.equivalents]
+            model = f"{_told(firm) or 'is off'}{_tight(diagnosis)}"
             return (
                 f"The model {model}, and this recording cannot tell"
                 f" {_open(diagnosis)}{gap}."
@@ -55,6 +57,8 @@ def statement(diagnosis: Diagnosis, entry: Named) -> str:
         others = listed(list(map(plain, entry.equivalents)), "or")
         said = f"Perhaps {what}{_shown(entry)}"
         return f"{said}; this recording cannot tell it from {others}."
+    if diagnosis.explained.looser and any(one.equivalents for one in diagnosis.named):
+        return f"Perhaps {what}, with the others."
     if entry.effect is None:
         whose = "the model and its tolerance" if _tight(diagnosis) else "the model"
         return f"{what[0].upper()}{what[1:]}; correct {whose}."

@@ -65,12 +65,12 @@ def _travel(way: Array, least: float, begun: float) -> Array:
                 plateau -= 1
             # A round turn leaves with the square of the time, and as it came.
             root = np.sqrt(begun / least)
-            left = (i - plateau - 1) * root / (1 - root)
+            before = (i - plateau - 1) * root / (1 - root)
             came = 0 if sign != 0.0 else plateau
             while came < top and abs(way[top - came] - extreme) <= begun:
                 came += 1
             sign = 1.0 if way[i] > extreme else -1.0
-            out[plateau - int(min(left, came, plateau - top)) + 1 : i] = sign
+            out[plateau - int(min(before, came, plateau - top)) + 1 : i] = sign
             extreme, top = way[i], i
         out[i] = sign
     return out

@@ -8,7 +8,7 @@ from scipy.ndimage import uniform_filter1d
 from gripperd.diagnose.course import Course, is_table
 from gripperd.diagnose.fault import Mask
 from gripperd.diagnose.stages import INPUTS
-from gripperd.diagnose.travel import TRAVEL, leaning, noticed
+from gripperd.diagnose.travel import STUCK, TRAVEL, leaning, noticed, travel
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -55,6 +55,7 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
         good &= ~_transients(course)
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
+    if sweeps and signal is Signal.FORCE:
         good &= ~_stuck(course)
     return good
 
@@ -94,10 +95,12 @@ def _reversals(course: Course) -> Mask:
     sign, way = course.direction, course.level("contraction")
     turned = np.diff(sign, prepend=sign[0]) != 0
     near, seen = _widened(turned, 2), noticed(course.hush("contraction"))
+    ends = [*np.flatnonzero(turned).tolist(), sign.size]
     start = 0
-    for place in np.flatnonzero(turned).tolist():
-        furthest = np.max(sign[place - 1] * way[start:place])
-        reach = int(np.argmax(furthest - sign[place - 1] * way[place:] > seen))
+    for place, end in pairwise(ends):
+        came = sign[place - 1]
+        furthest = np.max(came * way[start:place])
+        reach = int(np.argmax(furthest - came * way[place:end] > seen))
         near[max(place - reach, 0) : place + reach] = True
         start = place
     return near
@@ -109,15 +112,20 @@ def _stuck(course: Course) -> Mask:
     The muscle goes by less than is measured, or sticks: until its contraction has
     followed, its friction lies anywhere between the two directions.
     """
-    grip, way = np.nan_to_num(course.level("grip")), course.level("contraction")
+    stuck = np.zeros(len(course), dtype=bool)
+    grip, pressure = course.level("grip"), course.level("pressure")
+    if not (np.isfinite(grip).any() and np.isfinite(pressure).all()):
+        return stuck
+    grip = np.nan_to_num(grip - np.nanmin(grip))
     holds = (grip > PRESSED * course.hush("grip")) & (grip > 0)
+    least = STUCK * float(np.ptp(pressure))
+    sign, way = travel(pressure, least), course.level("contraction")
     ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
-    stuck = np.zeros_like(holds)
     for start, end in ends.reshape(-1, 2).tolist():
-        sign = course.inflating[start:end]
-        turns = start + 1 + np.flatnonzero(np.diff(sign))
+        inside = sign[start:end]
+        turns = start + 1 + np.flatnonzero(inside[1:] * inside[:-1] < 0)
         for turn, after in pairwise([*turns.tolist(), end]):
-            gone = course.inflating[turn] * (way[turn:after] - way[turn])
+            gone = sign[turn] * (way[turn:after] - way[turn])
             stuck[turn:after] = ~np.logical_or.accumulate(gone > TRAVEL)
     return _widened(stuck, 2)
 

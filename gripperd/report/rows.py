@@ -9,10 +9,11 @@ from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.correction import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import UNNAMED
-from gripperd.diagnose.figures import bounds, chance, fixed, stopped
+from gripperd.diagnose.figures import chance, fixed, stopped
 from gripperd.diagnose.gap import Gap
 from gripperd.diagnose.key import CONSTANTS, keys_of, public
 from gripperd.diagnose.rival import Rival
+from gripperd.diagnose.rivalry import EVEN
 from gripperd.diagnose.statement import span
 from gripperd.reproduce.chapters import Table
 
@@ -88,7 +89,7 @@ def ranking(diagnosis: Diagnosis) -> Bars | None:
     lines = tuple(
         Bar(
             public(name),
-            f"{gain:,.0f}".replace(",", "\u202f"),
+            f"{gain:,.0f}".replace(",", NARROW_SPACE),
             max(gain, 0.0) / top,
             chosen=name in names,
         )
@@ -108,11 +109,11 @@ def contenders(diagnosis: Diagnosis) -> Table:
     for rival in sorted(_fitted(diagnosis), key=lambda one: -one.evidence):
         names = tuple(sorted(map(public, rival.names)))
         behind = told.evidence - rival.evidence
-        if set(rival.names) > set(told.names) and 0 <= behind < IDLE:
+        if set(rival.names) > set(told.names) and abs(behind) < IDLE:
             continue
         misfit = 1 + rival.excess / rival.fit.samples
         label = " + ".join(names) or "better constants alone"
-        rows.setdefault(names, (label, f"{behind:.1f}", f"{misfit:.2f}"))
+        rows.setdefault(names, (label, f"{behind + 0.0:.1f}", f"{misfit:.2f}"))
     return Table(
         "Explanations fitted in full",
         ("explanation", "behind what is told [nat]", "χ² per sample"),
@@ -123,7 +124,7 @@ def contenders(diagnosis: Diagnosis) -> Table:
 def overruled(diagnosis: Diagnosis) -> bool:
     """Whether something else than what is told has more evidence."""
     told = diagnosis.contest.best.evidence
-    return any(one.evidence > told for one in _fitted(diagnosis))
+    return any(one.evidence > told + EVEN for one in _fitted(diagnosis))
 
 
 def _fitted(diagnosis: Diagnosis) -> list[Rival]:
@@ -142,12 +143,12 @@ def numbers(diagnosis: Diagnosis) -> Table | None:
 def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
     for entry in diagnosis.named:
         for name, key in keys_of(entry).items():
-            one, limits = entry.parameters[name], bounds(entry, name)
+            one = entry.parameters[name]
             half = NORMAL_95 * one.std
-            ends = np.clip([one.value - half, one.value + half], *limits).tolist()
+            ends = np.clip([one.value - half, one.value + half], one.low, one.high)
             value, doubt, low, high = (
                 fixed(size / key.factor, one.std / key.factor)
-                for size in (one.value, one.std, *ends)
+                for size in (one.value, one.std, *ends.tolist())
             )
             yield (
                 public(entry.name),
@@ -155,7 +156,7 @@ def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
                 value,
                 doubt,
                 f"{low} to {high}",
-                "yes" if stopped(entry, name) else "-",
+                "yes" if stopped(one) else "-",
             )
 
 

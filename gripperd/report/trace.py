@@ -94,7 +94,7 @@ def _trace(
     return Trace(
         run=course.run,
         kind=course.kind,
-        start=float(course.time[0]),
+        start=float(course.time[0]) - course.start,
         time=course.time[good] - course.time[0],
         measured=column.written(whole.measured[index]),
         expected={state: column.written(values) for state, values in expected.items()},

@@ -25,7 +25,10 @@ def test_a_number_says_when_a_bound_holds_it(
     creep: Diagnosis, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (found,) = creep.named
-    estimates = {"slow": Estimate(0.15, 0.0312), "time": Estimate(0.5359, 0.094)}
+    estimates = {
+        "slow": Estimate(0.15, 0.0312, -0.15, 0.15),
+        "time": Estimate(0.5359, 0.094),
+    }
     entry = replace(found, parameters=estimates, p_value=0.0)
     text = told(replace(creep, named=(entry,)), capsys)
     assert "slow 0.150 ± 0.031, at its bound" in text

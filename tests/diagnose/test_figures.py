@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from gripperd.demo.rig import Hidden
-from gripperd.diagnose.figures import bounds, chance, fixed, stopped
+from gripperd.diagnose.figures import chance, fixed, stopped
 from gripperd.diagnose.named import Estimate
 from tests.demonstration import example
 
@@ -36,8 +36,8 @@ def test_no_chance_is_called_zero(p_value: float, said: str) -> None:
 
 
 def test_what_a_bound_holds_is_known() -> None:
-    entry = example(Hidden.CREEP)[1].named[0]
-    assert bounds(entry, "slow") == (-0.15, 0.15)
-    held = dict(entry.parameters) | {"slow": Estimate(0.15, 0.03)}
-    assert stopped(replace(entry, parameters=held), "slow")
-    assert not stopped(entry, "slow")
+    one = example(Hidden.CREEP)[1].named[0].parameters["slow"]
+    assert (one.low, one.high) == (-0.15, 0.15)
+    assert stopped(replace(one, value=0.15))
+    assert not stopped(one)
+    assert not stopped(Estimate(0.0, 0.1))

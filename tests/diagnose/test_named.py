@@ -108,6 +108,15 @@ def test_its_value_is_that_of_the_rig(fat: Named) -> None:
     assert abs(diameter.value - 0.020) < 4 * diameter.std
 
 
+def test_a_number_knows_beyond_what_nothing_was_sought(
+    threshold: Named, fat: Named
+) -> None:
+    pressure, (diameter,) = threshold.parameters["pressure"], fat.parameters.values()
+    assert 0.0 <= pressure.low < 25e3 < pressure.high < np.inf
+    # Let go, it may be off by far more than two tolerances of 0.05 mm, but not by all.
+    assert 0.018 < diameter.low <= diameter.value < 0.0219 < diameter.high < 0.026
+
+
 def test_nothing_found_is_nothing_named(told: Diagnosis) -> None:
     nothing = replace(told.contest, best=told.found.null, without=(), rivals=())
     assert named(told.found, nothing, told.gaps) == ()

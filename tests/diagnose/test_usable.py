@@ -9,6 +9,7 @@ from gripperd.diagnose.recording import Recording
 from gripperd.diagnose.smoothing import Smooth
 from gripperd.diagnose.usable import usable
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from tests.diagnose.small import (
     REGULATOR,
     recording,
@@ -56,8 +57,8 @@ def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
     ("given", "known_from"),
     [
         pytest.param(0.0, 301, id="a stone: when it is let go"),
-        # 4 % of contraction per 100 samples: 1.5e-3 are gone after 4.
-        pytest.param(0.04, 204, id="a sponge: when it has given way"),
+        # 5e-3 of contraction in 100 samples: 1.5e-3 are gone after 30.
+        pytest.param(0.005, 230, id="a sponge: when it has given way"),
     ],
 )
 def test_jaws_that_hold_on_say_nothing_of_the_force_until_they_follow_the_pressure(
@@ -75,8 +76,38 @@ def test_jaws_that_hold_on_say_nothing_of_the_force_until_they_follow_the_pressu
     (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
     good = usable(course, Signal.FORCE, 1.0)
     assert good[110:195].all()
-    assert not good[203 : known_from - 5].any()
+    assert not good[210 : known_from - 8].any()
     assert good[known_from + 8 : 390].all()
+
+
+@pytest.mark.parametrize(
+    ("grip", "pressure"),
+    [
+        pytest.param(0.3, triangle(401), id="a grip cell that is off holds nothing"),
+        pytest.param(
+            np.append(np.zeros(50), np.full(351, 60.0)),
+            np.append(np.linspace(50e3, 300e3, 51), np.full(350, 291e3)),
+            id="an overshoot turns no load",
+        ),
+        pytest.param(
+            np.append(0.0, np.full(400, 60.0)), np.linspace(50e3, 500e3, 401),
+            id="the first rise is no turn",
+        ),
+    ],
+)  # fmt: skip
+def test_a_force_counts_while_nothing_holds_the_muscle_back(
+    grip: float | Array, pressure: Array
+) -> None:
+    told = run(
+        grip=grip + noise(401, 0.03),
+        pressure=pressure + noise(401, 300.0, 2),
+        contraction=np.full(401, 0.1),
+        force=1e-3 * pressure + noise(401, 1.0, 3),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE, 1.0)
+    assert good[60:195].all()
+    assert good[210:].all()
 
 
 def test_samples_next_to_a_step_of_pressure_are_left_out() -> None:

@@ -71,13 +71,13 @@ def campaign(sweeps: list[Sweep], rests: Array, day: Weather, hidden: Hidden) ->
 
 
 def _columns(sweep: Sweep, since: Array) -> Array:
-    pressure = np.interp(since, sweep.time, sweep.pressure)
-    length = np.full(since.size, np.nan)
-    if sweep.contraction:
-        length = np.interp(since, sweep.time, sweep.contraction)
-    size = np.full(since.size, sweep.object_size)
+    constant = (sweep.object_size, sweep.object_stiffness)
     return np.stack(
-        [pressure, length, size, np.full(since.size, sweep.object_stiffness)]
+        [
+            sweep.pressure_at(since),
+            sweep.contraction_at(since),
+            *(np.full(since.size, value) for value in constant),
+        ]
     )
 
 

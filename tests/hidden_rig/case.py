@@ -1,6 +1,6 @@
 """One case: a recording, the model that goes with it, and the sealed truth."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,9 @@ from tests.hidden_rig.measurement import Readings, measured
 from tests.hidden_rig.protocol import protocol
 from tests.hidden_rig.rig import Rig, built, off_by
 from tests.hidden_rig.truth import Bench, full_scale, hide
+
+SLOW = ("isometric", "isobaric")
+"""Kinds of sweeps that a crank may drive."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,7 @@ def make_case(
 def _bench(family: str, draw: Draw, random: np.random.Generator) -> Bench:
     slack = draw.signed or "slack_clipped" in draw.names
     sweeps = protocol(random, taut=not slack)
+    sweeps = [replace(s, rounded=draw.rounded and s.kind in SLOW) for s in sweeps]
     drawn = Rig()
     return Bench(
         family=family,

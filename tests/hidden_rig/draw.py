@@ -24,6 +24,8 @@ class Draw:
     tolerance: float | None
     drifts: bool
     tells_noise: bool
+    rounded: bool
+    """Whether a crank drives the sweeps, and no spindle."""
 
     @property
     def tight(self) -> bool:
@@ -70,6 +72,7 @@ def draw_case(
         tolerance=(0.005 if tight else usual) if stated else None,
         drifts=kind == "drift" or (kind != "none" and wanders),
         tells_noise=bool(random.random() < 0.5),
+        rounded=bool(random.spawn(1)[0].random() < 1 / 3),
     )
 
 

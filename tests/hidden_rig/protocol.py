@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sweep:
-    """One run: straight lines between knots of time, pressure and contraction."""
+    """One run: lines between knots of time, pressure and contraction."""
 
     name: str
     kind: str
@@ -21,6 +21,25 @@ class Sweep:
     """Imposed; nothing where the jaws move freely."""
     object_size: float = float("nan")
     object_stiffness: float = float("nan")
+    rounded: bool = False
+    """Half a cosine from knot to knot, as a crank drives it, no straight line."""
+
+    def pressure_at(self, since: Array) -> Array:
+        """Asked of the regulator some time into the run. [kPa]."""
+        return self._between(since, self.pressure)
+
+    def contraction_at(self, since: Array) -> Array:
+        """Imposed some time into the run, NaN where the jaws move freely."""
+        if not self.contraction:
+            return np.full(since.size, np.nan)
+        return self._between(since, self.contraction)
+
+    def _between(self, since: Array, knots: tuple[float, ...]) -> Array:
+        place = np.interp(since, self.time, np.arange(len(self.time)))
+        if self.rounded:
+            whole = np.floor(place)
+            place = whole + (1 - np.cos(np.pi * (place - whole))) / 2
+        return np.asarray(np.interp(place, np.arange(len(knots)), knots))
 
 
 def slack_pressure(contraction: float) -> float:

@@ -70,6 +70,18 @@ def test_a_recording_has_the_size_and_columns_agreed(tmp_path: Path, seed: int) 
     assert case.truth["effects"] == []
 
 
+def test_a_rounded_sweep_stands_still_at_its_knots() -> None:
+    sweep = Sweep("p", "isobaric", (0, 4, 8), (0, 300, 300), (0, 0.1, 0), rounded=True)
+    since = np.array([0.0, 0.04, 2.0, 3.96, 4.0, 6.0, 8.0])
+    # From rest to rest, half way at half time; 1 % of the time is 2.5e-4 of the way.
+    np.testing.assert_allclose(
+        sweep.contraction_at(since) / 0.1,
+        [0, 2.5e-4, 0.5, 1 - 2.5e-4, 1, 0.5, 0],
+        atol=1e-5,
+    )
+    np.testing.assert_allclose(sweep.pressure_at(since)[[2, 5]], [150, 300])
+
+
 @pytest.mark.parametrize("family", ["A", "B"])
 def test_every_effect_reaches_the_strength_asked_for(family: str) -> None:
     rig = bench(family)

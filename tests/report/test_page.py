@@ -158,7 +158,7 @@ def test_a_number_is_no_finer_than_its_doubt_nor_beyond_its_bound(
     creep: Diagnosis,
 ) -> None:
     (found,) = creep.named
-    estimates = dict(found.parameters) | {"slow": Estimate(0.15, 0.0312)}
+    estimates = dict(found.parameters) | {"slow": Estimate(0.15, 0.0312, -0.15, 0.15)}
     text = written(replace(creep, named=(replace(found, parameters=estimates),)))
     cells = ("slow", "0.150", "0.031", "0.089 to 0.150", "yes")
     assert "".join(f"<td>{cell}</td>" for cell in cells) in text
