@@ -42,7 +42,7 @@ def demo_discrepancy(
 
 
 def _told(story: "Story") -> Iterator[tuple[str, str]]:
-    from gripperd.diagnose.columns import BY_QUANTITY
+    from gripperd.diagnose.readings.columns import BY_QUANTITY
     from gripperd.diagnose.statement import span, statement, summary
 
     found = story.diagnosis

@@ -8,14 +8,9 @@ from rich.table import Table
 from rich.text import Text
 
 from gripperd.cli.model import PIPE_WIDTH
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import UNNAMED
-from gripperd.diagnose.figures import chance, fixed, stopped
-from gripperd.diagnose.gap import Gap
-from gripperd.diagnose.key import Key, keys_of, public
-from gripperd.diagnose.named import Named
+from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.statement import (
     contradicted,
     left_out,
@@ -25,7 +20,12 @@ from gripperd.diagnose.statement import (
     statement,
     summary,
 )
-from gripperd.diagnose.where import Finding
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.figures import chance, fixed, stopped
+from gripperd.diagnose.verdict.gap import Gap
+from gripperd.diagnose.verdict.key import Key, keys_of, public
+from gripperd.diagnose.verdict.named import Named
+from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
 COLOURS = {

@@ -27,7 +27,7 @@ from gripperd.config.section import (
 )
 from gripperd.config.tolerance import Sigmas, moved, without_tolerances
 from gripperd.config.validation import validated
-from gripperd.diagnose.explanation import Explanation
+from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.effects import EFFECTS
 from gripperd.errors import ConfigError
 from gripperd.model import (

@@ -7,48 +7,48 @@ from typing import TypeAlias
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from gripperd.diagnose.aftermath import with_aftermath
-from gripperd.diagnose.agreement import beyond_use
-from gripperd.diagnose.believed import believed
-from gripperd.diagnose.candidates import candidates
-from gripperd.diagnose.conclude import (
+from gripperd.diagnose.correction.offer import Offer, offers
+from gripperd.diagnose.fit.candidates import candidates
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.readings.agreement import beyond_use
+from gripperd.diagnose.readings.believed import believed
+from gripperd.diagnose.readings.course import is_table
+from gripperd.diagnose.readings.recording import Contradiction, Recording
+from gripperd.diagnose.readings.thinning import thinned
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.holdout import Split, split
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.aftermath import with_aftermath
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.overstepped import with_overstepped
+from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
+from gripperd.diagnose.search.resting import with_resting_sign
+from gripperd.diagnose.search.rivalry import Contest, contest
+from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.search.tolerances import with_usual_tolerances
+from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.conclude import (
     Conclusion,
     Verdict,
     conclude,
     not_confirmed,
     unusable,
 )
-from gripperd.diagnose.correction import Offer, offers
-from gripperd.diagnose.course import is_table
-from gripperd.diagnose.explanation import Explanation
-from gripperd.diagnose.extrapolation import (
+from gripperd.diagnose.verdict.extrapolation import (
     Extrapolation,
     apart,
     extrapolation,
     swept,
 )
-from gripperd.diagnose.found import Found
-from gripperd.diagnose.gap import Gap, gaps, with_usual_sign
-from gripperd.diagnose.holdout import Split, split
-from gripperd.diagnose.judged import bearing_signal, main_signal
-from gripperd.diagnose.jump import jump
-from gripperd.diagnose.named import Named, named
-from gripperd.diagnose.next_experiment import Proposal, proposal
-from gripperd.diagnose.overstepped import with_overstepped
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.recording import Contradiction, Recording
-from gripperd.diagnose.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.resting import with_resting_sign
-from gripperd.diagnose.rival import Rival
-from gripperd.diagnose.rivalry import Contest, contest
-from gripperd.diagnose.search import search
-from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.signature import signature
-from gripperd.diagnose.thinning import thinned
-from gripperd.diagnose.tolerances import with_usual_tolerances
-from gripperd.diagnose.where import Finding, findings
+from gripperd.diagnose.verdict.gap import Gap, gaps, with_usual_sign
+from gripperd.diagnose.verdict.judged import bearing_signal, main_signal
+from gripperd.diagnose.verdict.jump import jump
+from gripperd.diagnose.verdict.named import Named, named
+from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
+from gripperd.diagnose.verdict.signature import signature
+from gripperd.diagnose.verdict.where import Finding, findings
 from gripperd.model.effect import Effect, Signal
 
 MOST_ROWS = 40_000

@@ -5,18 +5,18 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gripperd.diagnose.columns import BY_QUANTITY, Column
-from gripperd.diagnose.conclude import Verdict
-from gripperd.diagnose.correction_document import correction_document
+from gripperd.diagnose.correction.document import correction_document
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.figures import UNLIKELY
-from gripperd.diagnose.gap import Gap
-from gripperd.diagnose.key import keys_of, number, public
-from gripperd.diagnose.named import Named
-from gripperd.diagnose.next_experiment import Proposal
-from gripperd.diagnose.recording import Contradiction
+from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
+from gripperd.diagnose.readings.recording import Contradiction
 from gripperd.diagnose.statement import statement, summary
-from gripperd.diagnose.where import Finding
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.figures import UNLIKELY
+from gripperd.diagnose.verdict.gap import Gap
+from gripperd.diagnose.verdict.key import keys_of, number, public
+from gripperd.diagnose.verdict.named import Named
+from gripperd.diagnose.verdict.next_experiment import Proposal
+from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
 Document: TypeAlias = dict[str, object]

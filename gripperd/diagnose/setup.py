@@ -5,19 +5,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.constants import constants
-from gripperd.diagnose.course import Course
-from gripperd.diagnose.cutting import courses
-from gripperd.diagnose.explanation import Explanation
-from gripperd.diagnose.holdout import split
-from gripperd.diagnose.loudness import noises_of
-from gripperd.diagnose.noise import Noise
-from gripperd.diagnose.plausible import check_plausible
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.recording import Recording
-from gripperd.diagnose.stages import INPUTS
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.constants import constants
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.holdout import split
+from gripperd.diagnose.residuals.loudness import noises_of
+from gripperd.diagnose.residuals.plausible import check_plausible
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.model.effect import Signal
 
 SLACK = 4.5

@@ -2,15 +2,15 @@
 
 from collections.abc import Sequence
 
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.conclude import Verdict
-from gripperd.diagnose.correction import Offer
+from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.figures import fixed
-from gripperd.diagnose.key import key_of_constant, keys_of, plain, public
-from gripperd.diagnose.named import Named
-from gripperd.diagnose.recording import Contradiction, Rejection
-from gripperd.diagnose.where import Finding
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.readings.recording import Contradiction, Rejection
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.figures import fixed
+from gripperd.diagnose.verdict.key import key_of_constant, keys_of, plain, public
+from gripperd.diagnose.verdict.named import Named
+from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
 SHOWN = 4

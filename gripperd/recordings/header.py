@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from types import MappingProxyType
 
 from gripperd.config.complaint import printable
-from gripperd.diagnose.columns import BY_QUANTITY, COLUMNS, TIME, Column
+from gripperd.diagnose.readings.columns import BY_QUANTITY, COLUMNS, TIME, Column
 from gripperd.errors import InputError
 
 RUN = "run"

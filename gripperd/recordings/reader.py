@@ -3,10 +3,10 @@
 from hashlib import sha256
 from pathlib import Path
 
-from gripperd.diagnose.columns import COLUMNS
-from gripperd.diagnose.recording import Recording
-from gripperd.diagnose.repeats import contradictions
-from gripperd.diagnose.screening import screened
+from gripperd.diagnose.readings.columns import COLUMNS
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.readings.repeats import contradictions
+from gripperd.diagnose.readings.screening import screened
 from gripperd.errors import InputError
 from gripperd.recordings.csv_file import CsvFile
 from gripperd.recordings.header import WORDS, judge_names

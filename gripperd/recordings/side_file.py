@@ -8,8 +8,8 @@ from typing import TypeGuard
 from gripperd.config.complaint import did_you_mean
 from gripperd.config.document import Document, read_document
 from gripperd.config.wording import shown
-from gripperd.diagnose.columns import COLUMNS
-from gripperd.diagnose.recording import Kind, Run
+from gripperd.diagnose.readings.columns import COLUMNS
+from gripperd.diagnose.readings.recording import Kind, Run
 from gripperd.errors import ConfigError, InputError
 from gripperd.recordings.header import IDENTITIES
 

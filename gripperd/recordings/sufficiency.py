@@ -6,8 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.recording import Rejection, Run
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.readings.recording import Rejection, Run
 from gripperd.errors import InputError
 
 LINKS = (

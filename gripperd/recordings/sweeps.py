@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripperd.config.complaint import printable
-from gripperd.diagnose.columns import COLUMNS, TIME
-from gripperd.diagnose.recording import Rejection, Run
+from gripperd.diagnose.readings.columns import COLUMNS, TIME
+from gripperd.diagnose.readings.recording import Rejection, Run
 from gripperd.errors import InputError
 from gripperd.recordings.header import IDENTITIES, RUN
 from gripperd.recordings.table import Table

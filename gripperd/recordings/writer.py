@@ -8,8 +8,8 @@ import pyarrow.csv
 import pyarrow.parquet
 import yaml
 
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.readings.recording import Recording
 from gripperd.errors import InputError
 from gripperd.recordings.header import RUN
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from gripperd.diagnose.columns import BY_QUANTITY, Column
-from gripperd.diagnose.correction import Offer
-from gripperd.diagnose.correction_map import CorrectionMap, maps
-from gripperd.diagnose.regressors import DIRECTION
+from gripperd.diagnose.correction.offer import Offer
+from gripperd.diagnose.correction.table import CorrectionMap, maps
+from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
+from gripperd.diagnose.residuals.regressors import DIRECTION
 from gripperd.model.track import Array
 from gripperd.report.where import paint
 from gripperd.reproduce.drawing import BLUE, INK, canvas

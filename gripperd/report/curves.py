@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from gripperd.diagnose.columns import BY_QUANTITY, Column
-from gripperd.diagnose.next_experiment import Proposal
-from gripperd.diagnose.recording import Kind
+from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
+from gripperd.diagnose.readings.recording import Kind
+from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.model.track import Array
 from gripperd.report.trace import State, Trace, elided
 from gripperd.report.where import COLOURS

@@ -4,10 +4,8 @@ from typing import TYPE_CHECKING
 
 import yaml
 
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.key import public
+from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.statement import (
     contradicted,
     left_out,
@@ -16,6 +14,8 @@ from gripperd.diagnose.statement import (
     statement,
     summary,
 )
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.key import public
 from gripperd.report import rows
 from gripperd.reproduce.extra import not_installed
 

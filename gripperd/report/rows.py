@@ -5,16 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.correction import Offer
+from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import UNNAMED
-from gripperd.diagnose.figures import chance, fixed, stopped
-from gripperd.diagnose.gap import Gap
-from gripperd.diagnose.key import CONSTANTS, keys_of, public
-from gripperd.diagnose.rival import Rival
-from gripperd.diagnose.rivalry import EVEN
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.search.rivalry import EVEN
 from gripperd.diagnose.statement import span
+from gripperd.diagnose.verdict.figures import chance, fixed, stopped
+from gripperd.diagnose.verdict.gap import Gap
+from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, public
 from gripperd.reproduce.chapters import Table
 
 RANKED = 12

@@ -7,11 +7,11 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import UNNAMED
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.recording import Kind
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.readings.recording import Kind
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 

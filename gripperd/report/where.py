@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from gripperd.diagnose.columns import BY_QUANTITY, Column
+from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
 from gripperd.model.track import Array
 from gripperd.report.trace import REGRESSORS, State, Trace, elided, joined, level
 from gripperd.reproduce.drawing import BLUE, INK, MUTED, VERMILION, canvas

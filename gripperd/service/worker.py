@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING
 from gripperd import __version__
 from gripperd.config import load_model
 from gripperd.config.durable import replace_file
-from gripperd.diagnose.columns import COLUMNS
-from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.readings.columns import COLUMNS
+from gripperd.diagnose.readings.recording import Recording
 from gripperd.effects import EFFECTS
 from gripperd.errors import GripperdError, InputError, Refused
 from gripperd.link.frames import failed

@@ -14,13 +14,15 @@ import numpy as np
 
 from gripperd.config import ModelFile, Provenance
 from gripperd.config.lineage import Gap
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.extrapolation import apart
-from gripperd.diagnose.gap import Gap as Judged
-from gripperd.diagnose.gap import gaps
-from gripperd.diagnose.key import (
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.statement import summary
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.extrapolation import apart
+from gripperd.diagnose.verdict.gap import Gap as Judged
+from gripperd.diagnose.verdict.gap import gaps
+from gripperd.diagnose.verdict.key import (
     CONSTANTS,
     Key,
     key_of_constant,
@@ -28,9 +30,7 @@ from gripperd.diagnose.key import (
     public,
     rounded,
 )
-from gripperd.diagnose.named import Estimate, Named
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.statement import summary
+from gripperd.diagnose.verdict.named import Estimate, Named
 from gripperd.errors import Refused
 from gripperd.model import StaticMuscle
 from gripperd.model.effect import Effect, acts_in_muscle

@@ -6,11 +6,11 @@ import numpy as np
 
 from gripperd.config import Provenance
 from gripperd.config.lineage import Added, Covariance, Gap, Recorded
-from gripperd.diagnose.candidates import WRONG
-from gripperd.diagnose.constants import Constant
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.key import key_of_constant, keys_of, public, rounded
-from gripperd.diagnose.named import Named
+from gripperd.diagnose.fit.candidates import WRONG
+from gripperd.diagnose.residuals.constants import Constant
+from gripperd.diagnose.verdict.key import key_of_constant, keys_of, public, rounded
+from gripperd.diagnose.verdict.named import Named
 
 OWNERS = frozenset({"muscle", "valve", "gripper"})
 """Parts of a model file that have constants."""

@@ -4,10 +4,10 @@ import pytest
 
 from gripperd.cli.verdict import show
 from gripperd.demo.rig import Hidden
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.named import Estimate
-from gripperd.diagnose.recording import Contradiction, Rejection
+from gripperd.diagnose.readings.recording import Contradiction, Rejection
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.named import Estimate
 from tests.demonstration import example
 
 

@@ -1,7 +1,7 @@
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
-from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from tests.diagnose.small import MODEL, recording, threshold

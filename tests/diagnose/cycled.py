@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from gripperd.diagnose.course import Course
-from gripperd.diagnose.cutting import courses
-from gripperd.diagnose.recording import Recording, Run
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.model.track import Array
 from tests.diagnose.sweep import noise, run
 

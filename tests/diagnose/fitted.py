@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.found import Found
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.polish import polished
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.rival import Rival, added
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.found import Found
 
 
 def fitted(problem: Problem, *candidates: Candidate) -> Rival:

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.columns import BY_QUANTITY
-from gripperd.diagnose.correction import Correction, Offer, Worth
-from gripperd.diagnose.gaussian_process import LENGTHS, Kernel, Process
+from gripperd.diagnose.correction.gaussian_process import LENGTHS, Kernel, Process
+from gripperd.diagnose.correction.offer import Correction, Offer, Worth
+from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.model.effect import Signal
 
 

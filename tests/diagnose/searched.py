@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.found import Found
-from gripperd.diagnose.search import search
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias

@@ -9,10 +9,10 @@ from math import pi, radians, sin, tan
 
 import numpy as np
 
-from gripperd.diagnose.explanation import Explanation
-from gripperd.diagnose.noise import Noise
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.recording import Recording, Run
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.effects.braid_friction import BraidFriction
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model import Linkage, Muscle, Regulator

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.recording import Recording, Run
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.model.track import Array
 from tests.diagnose.small import (

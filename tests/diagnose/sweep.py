@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gripperd.diagnose.recording import Kind, Run
+from gripperd.diagnose.readings.recording import Kind, Run
 from gripperd.model.track import Array
 
 SEED = 20240229

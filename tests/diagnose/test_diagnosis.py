@@ -5,16 +5,16 @@ import numpy as np
 import pytest
 
 from gripperd.config import load_model
-from gripperd.diagnose.candidates import Candidate, forms
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.document import document
-from gripperd.diagnose.gap import Gap
-from gripperd.diagnose.holdout import split
-from gripperd.diagnose.jump import Jump
-from gripperd.diagnose.recording import Recording
-from gripperd.diagnose.search import search
+from gripperd.diagnose.fit.candidates import Candidate, forms
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.holdout import split
+from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.gap import Gap
+from gripperd.diagnose.verdict.jump import Jump
 from gripperd.effects import EFFECTS
 from gripperd.errors import InputError
 from gripperd.model import Linkage

@@ -6,13 +6,13 @@ from typing import Any
 import pytest
 
 from gripperd.demo.rig import THRESHOLD, Hidden
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import document
-from gripperd.diagnose.extrapolation import Extrapolation
-from gripperd.diagnose.named import Estimate
-from gripperd.diagnose.next_experiment import Proposal
-from gripperd.diagnose.recording import Contradiction, Kind, Rejection
+from gripperd.diagnose.readings.recording import Contradiction, Kind, Rejection
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.extrapolation import Extrapolation
+from gripperd.diagnose.verdict.named import Estimate
+from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.model.effect import Signal
 from tests.demonstration import example
 from tests.diagnose.offered import bump

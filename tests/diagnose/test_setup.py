@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.recording import Recording, Run
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal

@@ -3,12 +3,12 @@ from dataclasses import replace
 import pytest
 
 from gripperd.demo.rig import Hidden
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.named import Estimate, Named
-from gripperd.diagnose.recording import Contradiction
+from gripperd.diagnose.readings.recording import Contradiction
 from gripperd.diagnose.statement import offered, reasons, span, statement, summary
-from gripperd.diagnose.where import Finding
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.named import Estimate, Named
+from gripperd.diagnose.verdict.where import Finding
 from gripperd.effects.creep import Creep
 from gripperd.model.effect import Signal
 from tests.demonstration import example

@@ -16,9 +16,9 @@ import numpy as np
 import pytest
 
 from gripperd.config import load_model
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
-from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.model.effect import Signal
 from gripperd.recordings import read_recording

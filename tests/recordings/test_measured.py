@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripperd.diagnose.recording import Recording
+from gripperd.diagnose.readings.recording import Recording
 from gripperd.recordings import read_recording
 
 FOLDER = os.environ.get("GRIPPERD_MEASURED")

@@ -1,6 +1,6 @@
 import pytest
 
-from gripperd.diagnose.recording import Kind
+from gripperd.diagnose.readings.recording import Kind
 from gripperd.recordings import read_recording
 from tests.recordings.conftest import Complaint, Write, good
 

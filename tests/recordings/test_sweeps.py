@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.recording import Rejection
+from gripperd.diagnose.readings.recording import Rejection
 from gripperd.recordings import read_recording
 from tests.recordings.conftest import Complaint, Write, good
 

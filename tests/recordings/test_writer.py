@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripperd.diagnose.recording import Kind, Recording, Run
+from gripperd.diagnose.readings.recording import Kind, Recording, Run
 from gripperd.errors import InputError
 from gripperd.recordings import read_recording, write_recording
 

@@ -5,15 +5,15 @@ from html.parser import HTMLParser
 import pytest
 
 from gripperd.demo.rig import Hidden
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.extrapolation import Extrapolation
-from gripperd.diagnose.key import public
-from gripperd.diagnose.named import Estimate
-from gripperd.diagnose.next_experiment import Proposal
-from gripperd.diagnose.recording import Contradiction, Kind, Rejection
-from gripperd.diagnose.rival import Rival
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.readings.recording import Contradiction, Kind, Rejection
 from gripperd.diagnose.statement import summary
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.extrapolation import Extrapolation
+from gripperd.diagnose.verdict.key import public
+from gripperd.diagnose.verdict.named import Estimate
+from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
 from gripperd.report import page

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from gripperd.demo.rig import Hidden
-from gripperd.diagnose.columns import BY_QUANTITY
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.model.effect import Signal
 from gripperd.report.trace import Trace, elided, traces
 from gripperd.report.where import over_time, spaced

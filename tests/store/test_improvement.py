@@ -8,9 +8,9 @@ import pytest
 
 from gripperd.config import ModelFile, load_model
 from gripperd.demo.rig import Hidden, Rig
-from gripperd.diagnose.conclude import Verdict
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.named import Estimate
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.named import Estimate
 from gripperd.effects.creep import Creep
 from gripperd.errors import Refused
 from gripperd.store import Version, Versions

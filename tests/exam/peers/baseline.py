@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import least_squares
 
-from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.response import Base, change, sensitivities
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.response import Base, change, sensitivities
 from gripperd.model.effect import Effect
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array

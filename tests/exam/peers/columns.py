@@ -11,9 +11,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.diagnose.candidates import Candidate
-from gripperd.diagnose.problem import Problem
-from gripperd.diagnose.response import responses, sensitivities
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.response import responses, sensitivities
 from gripperd.model.track import Array
 from tests.exam.peers.exhibit import Exhibit
 

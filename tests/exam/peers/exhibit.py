@@ -6,10 +6,10 @@ from typing import Protocol
 
 import numpy as np
 
-from gripperd.diagnose.candidates import Candidate, candidates
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.point import Point
-from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.fit.candidates import Candidate, candidates
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripperd.diagnose.course import Course
-from gripperd.diagnose.problem import Problem
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.track import Array
 from tests.exam.peers.exhibit import Exhibit
 

@@ -1,0 +1,1 @@
+"""One explanation fitted: constants, amplitudes and shapes, linear and in full."""

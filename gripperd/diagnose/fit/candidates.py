@@ -1,0 +1,160 @@
+"""What could be missing: every effect of the library, and every constant."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import product
+from types import MappingProxyType
+
+import numpy as np
+
+from gripperd.diagnose.readings.course import is_table
+from gripperd.diagnose.residuals.constants import PARTS
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Effect, Stage
+from gripperd.model.parameter import parameters
+
+LINEAR = ("valve_offset", "valve_gain")
+SLIDING = frozenset({
+    "coulomb_friction", "pressure_friction", "braid_friction", "presliding_hysteresis",
+    "viscous_friction", "linkage_friction", "linkage_backlash",
+})  # fmt: skip
+"""Effects of travel, which have no sign where there is none."""
+TEMPORAL = frozenset({
+    "viscous_friction", "fatigue", "first_cycle", "leak", "force_sensor_drift",
+    "channel_delay",
+})  # fmt: skip
+"""Effects in which time or order counts, beside those with a memory."""
+SAME: Mapping[str, str] = MappingProxyType({
+    "valve.pressure_low": "valve_offset", "valve.pressure_high": "valve_gain",
+})  # fmt: skip
+"""Constants that are wrong in just the way in which an effect shows."""
+BASIS: Mapping[str, str] = MappingProxyType({
+    "nonlinear_elasticity": "rubber_elasticity",
+    "pressure_friction": "braid_friction",
+})  # fmt: skip
+"""What an effect departs from: without it there is nothing to depart from."""
+WRONG = "parameter:"
+"""Start of the name of a candidate that is a wrong constant."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """One form of one thing that could be missing."""
+
+    name: str
+    effect: Effect | None
+    """With its shapes set and a typical size; none for a wrong constant."""
+    constant: int | None = None
+    """Index of the constant that is wrong."""
+
+    @property
+    def stage(self) -> str:
+        """Where it acts, ``-`` for a constant."""
+        return self.effect.stage.value if self.effect else "-"
+
+    @property
+    def kind(self) -> tuple[str, ...]:
+        """Its name, and the words it chose, such as the channel that is late."""
+        if self.effect is None:
+            return (self.name,)
+        chosen = [name for name, one in parameters(self.effect).items() if one.choices]
+        return (self.name, *(str(getattr(self.effect, name)) for name in chosen))
+
+    @property
+    def doubles(self) -> tuple[str, ...]:
+        """Names of effects known to look alike."""
+        return self.effect.confused_with if self.effect else ()
+
+
+def candidates(
+    library: Mapping[str, type[Effect]], problem: Problem, columns: frozenset[str]
+) -> tuple[tuple[Candidate, ...], dict[str, str]]:
+    """List everything this recording could show, and why the rest cannot be seen.
+
+    Parameters
+    ----------
+    library
+        Effects by name.
+    problem
+        The recording and the model; effects of the model are not candidates.
+    columns
+        Names of what was measured.
+    """
+    found: list[Candidate] = []
+    unseen: dict[str, str] = {}
+    present = {effect.name for effect in problem.model.effects}
+    for name, kind in library.items():
+        if name in present:
+            continue
+        if reason := _unseen(problem, kind, columns):
+            unseen[name] = reason
+            continue
+        found += [
+            Candidate(name, effect)
+            for effect in forms(kind)
+            if effect.stage in (Stage.SENSOR, Stage.GRIPPER)
+            or effect.signal in problem.signals
+        ]
+    found += _wrong_constants(library, problem)
+    return tuple(found), unseen
+
+
+def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> str:
+    """Why an effect cannot be seen here; empty when it can."""
+    lacking = sorted(kind.needs - columns)
+    if lacking:
+        return f"{', '.join(lacking)} not measured"
+    basis = BASIS.get(kind.name)
+    if basis and basis not in {effect.name for effect in problem.model.effects}:
+        return f"{basis} is not in the model"
+    if kind.name in SLIDING and not _travelled(problem):
+        return "the length never went both ways"
+    if is_table(problem.courses) and (kind.name in TEMPORAL or kind().rest().size):
+        return "the recording is a table of settled points, without time"
+    return ""
+
+
+def _travelled(problem: Problem) -> bool:
+    return any(np.ptp(course.direction) == 2 for course in problem.courses)
+
+
+def _wrong_constants(
+    library: Mapping[str, type[Effect]], problem: Problem
+) -> Iterator[Candidate]:
+    travelled = _travelled(problem)
+    for index, constant in enumerate(problem.constants):
+        is_part = constant.path.partition(".")[0] in PARTS
+        unseen = constant.path == "muscle.friction_coefficient" and not travelled
+        if is_part and not unseen and SAME.get(constant.path) not in library:
+            yield Candidate(WRONG + constant.path, None, index)
+
+
+def is_exact(candidate: Candidate) -> bool:
+    """Tell whether nature leaves it no form but ours: an offset, a factor, a drift."""
+    effect = candidate.effect
+    if effect is None:
+        return False
+    known = parameters(effect)
+    if effect.stage is Stage.SENSOR:
+        return True
+    plain = not any(one.starts for one in known.values())
+    return plain and (not known or effect.name in LINEAR)
+
+
+def forms(kind: type[Effect]) -> list[Effect]:
+    """Give an effect in all the shapes from which a search starts."""
+    known = parameters(kind)
+    shapes: dict[str, tuple[object, ...]] = {
+        name: one.starts for name, one in known.items() if one.starts
+    }
+    shapes |= {name: one.choices for name, one in known.items() if one.choices}
+    typical = {name: one.scale for name, one in known.items() if one.is_amplitude}
+    return [
+        replace(kind(), **typical, **dict(zip(shapes, values, strict=True)))
+        for values in product(*shapes.values())
+    ]
+
+
+def amplitudes(effect: Effect) -> list[str]:
+    """Names of the parameters the effect is proportional to."""
+    return [name for name, one in parameters(effect).items() if one.is_amplitude]

@@ -1,0 +1,216 @@
+"""The best constants, amplitudes and shapes of one explanation.
+
+References
+----------
+.. [1] D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear
+       parameters", J. SIAM 11(2), 431-441, 1963.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from gripperd.diagnose.fit.design import limits, problem_prior
+from gripperd.diagnose.fit.gram import bounded
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.response import Base, change, responses, sensitivities
+from gripperd.model.effect import Effect, Signal
+from gripperd.model.parameter import parameters
+from gripperd.model.track import Array
+
+ROUNDS = 12
+TRIALS = 4
+DAMPED = 0.01
+"""First damping after a step that did not help, of the diagonal. [-]"""
+RELATIVE = 2e-5
+"""Fall of the cost, of itself, below which another round is not worth it. [-]"""
+CONVERGED = 0.3
+"""Fall of the cost below which another round is not worth it."""
+SHAPE_STEP = 0.04
+"""Step of a difference quotient, of a shape or of its range. [-]"""
+
+
+class Coordinate(NamedTuple):
+    """One number of an effect that is fitted."""
+
+    effect: str
+    parameter: str
+    unit: float
+    """One prior sigma. [SI]"""
+    low: float
+    high: float
+    is_amplitude: bool
+
+
+@dataclass(frozen=True)
+class Polished:
+    """A point that cannot be bettered by a small step."""
+
+    point: Point
+    cost: float
+    """Misfit plus prior: chi² at the point. [-]"""
+    misfits: Mapping[Signal, float]
+    """Chi² by signal."""
+    counts: Mapping[Signal, int]
+    """Samples by signal."""
+    coordinates: tuple[Coordinate, ...]
+    covariance: Array
+    """Of constants (in sigma) and coordinates (in units), shape ``(k, k)``."""
+
+    @property
+    def samples(self) -> int:
+        """Those explained, of all signals."""
+        return sum(self.counts.values())
+
+
+def polished(problem: Problem, point: Point) -> Polished:
+    """Fit everything at once, from a point nearby.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    point
+        Where to start; its effects stay, their numbers move.
+    """
+    coordinates = _coordinates(problem, point)
+    low, high = bounds(problem, point, coordinates)
+    cost, white = _cost(problem, point, coordinates)
+    covariance: Array = np.empty((0, 0))
+    damping = 0.0
+    for _ in range(ROUNDS):
+        columns = slopes(problem, point, coordinates)
+        matrix = columns.T @ columns + np.eye(columns.shape[1])
+        covariance = np.asarray(np.linalg.inv(matrix), np.float64)
+        here = coefficients(point, coordinates)
+        pull = columns.T @ np.concatenate(white) - _priors(here, coordinates)
+        start = cost
+        for _ in range(TRIALS):
+            damped = matrix + damping * np.diag(np.diag(matrix))
+            aim = bounded(damped, pull + damped @ here, low, high, here)
+            there = _moved(problem, point, coordinates, aim)
+            new_cost, new_white = _cost(problem, there, coordinates)
+            if new_cost < cost:
+                point, cost, white = there, new_cost, new_white
+                damping = damping / 10 if damping > DAMPED else 0.0
+                break
+            damping = max(10 * damping, DAMPED)
+        if start - cost < max(CONVERGED, RELATIVE * cost):
+            break
+    misfits = dict.fromkeys(problem.signals, 0.0)
+    counts = dict.fromkeys(problem.signals, 0)
+    for block, left in zip(problem.blocks, white, strict=True):
+        misfits[block.signal] += float(left @ left)
+        counts[block.signal] += left.size
+    return Polished(point, cost, misfits, counts, coordinates, covariance)
+
+
+def bounds(
+    problem: Problem, point: Point, coordinates: Sequence[Coordinate]
+) -> tuple[Array, Array]:
+    """Least and largest of constants, in widths, and coordinates, in units."""
+    reach = problem.reach(point)
+    low = np.array([c.low / c.unit for c in coordinates])
+    high = np.array([c.high / c.unit for c in coordinates])
+    return np.concatenate([-reach, low]), np.concatenate([reach, high])
+
+
+def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
+    if not point.effects:
+        return ()
+    found: list[Coordinate] = []
+    base = Base.of(problem, point)
+    for effect in point.effects:
+        answers = iter(responses(problem, point, effect, base))
+        for name, known in parameters(effect).items():
+            if known.is_amplitude:
+                prior = problem_prior(problem, effect, next(answers)) or 1.0
+                unit = prior * known.scale
+            elif known.starts and not known.choices and known.high > known.low:
+                unit = 0.5 * abs(getattr(effect, name)) or 0.1 * known.high
+            else:
+                continue
+            low, high = limits(problem, effect, name)
+            found.append(
+                Coordinate(effect.name, name, unit, low, high, known.is_amplitude)
+            )
+    return tuple(found)
+
+
+def coefficients(point: Point, coordinates: Sequence[Coordinate]) -> Array:
+    """Where a point stands: constants in widths, coordinates in units."""
+    acting = {effect.name: effect for effect in point.effects}
+    values = [getattr(acting[c.effect], c.parameter) / c.unit for c in coordinates]
+    return np.concatenate([point.shifts / point.widths, np.array(values)])
+
+
+def _moved(
+    problem: Problem, point: Point, coordinates: Sequence[Coordinate], vector: Array
+) -> Point:
+    count = point.shifts.size
+    acting: dict[str, Effect] = {effect.name: effect for effect in point.effects}
+    for coordinate, value in zip(coordinates, vector[count:].tolist(), strict=True):
+        bounded = min(max(value * coordinate.unit, coordinate.low), coordinate.high)
+        effect = acting[coordinate.effect]
+        acting[coordinate.effect] = replace(effect, **{coordinate.parameter: bounded})
+    reach = problem.reach(point)
+    shifts = np.clip(vector[:count], -reach, reach) * point.widths
+    return replace(point, shifts=shifts, effects=tuple(acting.values()))
+
+
+def _priors(vector: Array, coordinates: Sequence[Coordinate]) -> Array:
+    """Pull of the priors; a shape is held where it is, by a prior of its own size."""
+    pull = vector.copy()
+    for index, coordinate in enumerate(reversed(coordinates)):
+        if not coordinate.is_amplitude:
+            pull[-1 - index] = 0.0
+    return pull
+
+
+def _cost(
+    problem: Problem,
+    point: Point,
+    coordinates: Sequence[Coordinate],
+) -> tuple[float, list[Array]]:
+    white = [
+        problem.white([residual], index)[:, 0]
+        for index, residual in enumerate(problem.residuals(point))
+    ]
+    pull = _priors(coefficients(point, coordinates), coordinates)
+    return float(sum(w @ w for w in white) + pull @ pull), white
+
+
+def slopes(
+    problem: Problem,
+    point: Point,
+    coordinates: Sequence[Coordinate],
+) -> Array:
+    """Whitened change of every prediction for one unit of each parameter, (n, k)."""
+    base = Base.of(problem, point)
+    acting = {effect.name: effect for effect in point.effects}
+    columns = [
+        [width * column for column in response]
+        for width, response in zip(
+            point.widths.tolist(), sensitivities(problem, point, base), strict=True
+        )
+    ]
+    here = coefficients(point, coordinates)
+    count = point.shifts.size
+    for index, coordinate in enumerate(coordinates):
+        step = 0.1 if coordinate.is_amplitude else 2 * SHAPE_STEP
+        if here[count + index] * coordinate.unit >= 0.98 * coordinate.high:
+            step = -step
+        vector = here.copy()
+        vector[count + index] += step
+        there = problem.explanation(_moved(problem, point, coordinates, vector))
+        effect = acting[coordinate.effect]
+        columns.append(change(problem, base, there, effect, step))
+    return np.concatenate(
+        [
+            problem.white([column[index] for column in columns], index)
+            for index in range(len(problem.blocks))
+        ]
+    )

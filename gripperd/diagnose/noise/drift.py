@@ -1,0 +1,110 @@
+"""Slow drift of a sensor, from sweeps in which nothing else moves.
+
+The drift must not be fitted to the residual it is to judge, or it swallows the effect.
+It is read off holds and off the differences between a sweep and its repeat.
+
+References
+----------
+.. [1] D. A. Harville, "Maximum likelihood approaches to variance component estimation",
+       J. Am. Stat. Assoc. 72(358), 320-338, 1977: restricted likelihood.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.noise.whitening import log_scale, whitened
+from gripperd.model.track import Array
+
+SIZES = (0.0002, 0.0005, 0.001, 0.0015, 0.002, 0.003)
+"""Standard deviations tried, of full scale. [-]"""
+MEMORIES = (8.0, 20.0, 60.0, 200.0)
+"""Times of forgetting tried. [s]"""
+ALLOWANCE = 0.001
+"""Assumed when the recording has neither a hold nor a repeat, of full scale. [-]"""
+CAUTION = 0.7
+"""Share of the posterior below the size that is used: too small a drift makes false
+alarms, too large a one only hides small effects. [-]"""
+
+
+class Quiet(NamedTuple):
+    """A stretch in which only the noise should move."""
+
+    time: Array
+    residual: Array
+    regressors: Array
+    """What else may move there, shape ``(n, k)``; always a constant."""
+    loudness: float = 1.0
+    """Standard deviation over that of a single reading: root 2 for differences."""
+
+
+def with_drift(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
+    """Add to a noise the drift that quiet stretches show.
+
+    Parameters
+    ----------
+    noise
+        Between neighbouring samples.
+    quiet
+        Holds, and differences of repeats.
+    full_scale
+        Largest reading. [unit of the noise]
+    """
+    if not quiet:
+        return replace(noise, drift=ALLOWANCE * full_scale)
+    tried = [
+        replace(noise, drift=size * full_scale, memory=memory)
+        for size in SIZES
+        for memory in MEMORIES
+    ]
+    scores = np.array([sum(_likelihood(one, q) for q in quiet) for one in tried])
+    weights = np.exp(scores - scores.max()).reshape(len(SIZES), len(MEMORIES))
+    weights /= weights.sum()
+    size = int(np.searchsorted(np.cumsum(weights.sum(1)), CAUTION))
+    size = min(size, len(SIZES) - 1)
+    memory = int(np.argmax(weights[size]))
+    return replace(noise, drift=SIZES[size] * full_scale, memory=MEMORIES[memory])
+
+
+def _likelihood(noise: Noise, quiet: Quiet) -> float:
+    """Restricted log likelihood: what is left once the regressors are fitted."""
+    louder = replace(
+        noise, std=noise.std * quiet.loudness, drift=noise.drift * quiet.loudness
+    )
+    columns = np.column_stack([quiet.regressors, quiet.residual])
+    white = whitened(columns, quiet.time, louder)
+    regressors, residual = white[:, :-1], white[:, -1]
+    products = regressors.T @ regressors
+    best = np.linalg.lstsq(regressors, residual, rcond=None)[0]
+    rest = residual - regressors @ best
+    volume = np.linalg.slogdet(products + 1e-12 * np.eye(products.shape[0]))[1]
+    return float(-0.5 * rest @ rest - 0.5 * volume) - log_scale(quiet.time, louder)
+
+
+def hold(time: Array, residual: Array, *, creeps: bool) -> Quiet:
+    """Give a hold; under pressure the rubber may creep meanwhile."""
+    since = time - time[0]
+    ones = np.ones_like(since)
+    regressors = [ones]
+    if creeps:
+        regressors += [np.log1p(since), np.exp(-since / 4)]
+    return Quiet(time, residual, np.column_stack(regressors))
+
+
+def repeat(time: Array, first: Array, second: Array, load: Array) -> Quiet:
+    """Give the difference of a sweep and its repeat; a loss may scale with the load."""
+    regressors = np.column_stack([np.ones_like(time), load])
+    if np.ptp(load) < 1e-9 * (np.max(np.abs(load)) + 1e-300):
+        regressors = regressors[:, :1]
+    return Quiet(time, second - first, regressors, 2**0.5)
+
+
+def thinned(quiet: Iterable[Quiet], most: int = 3000) -> list[Quiet]:
+    """Keep the stretches short: a drift is slow, more samples say nothing new."""
+    return [
+        Quiet(q.time[:most], q.residual[:most], q.regressors[:most], q.loudness)
+        for q in quiet
+    ]

@@ -1,0 +1,1 @@
+"""What was measured, cut into sweeps, and what of it is believed."""

@@ -1,0 +1,136 @@
+"""The course of a run: what was measured, and the same without noise."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.recording import Kind
+from gripperd.diagnose.readings.travel import travel
+from gripperd.model.track import Array
+
+LEAP = 0.02
+"""Share of the range between neighbours from which points are no sweep. [-]"""
+
+TURNED, LEAST_TURNED = 0.02, 3e3
+"""Pressure that must be undone before it counts as reversed: share of its range, and
+at least. [-, Pa]"""
+PLATEAU = 0.2
+"""Share of it that is noise of a plateau. [-]"""
+
+
+@dataclass(frozen=True)
+class Course:
+    """A sweep without a pause, or several end to end.
+
+    Arrays of shape ``(n,)`` in SI, NaN not measured.
+    """
+
+    run: str
+    kind: Kind | None
+    time: Array
+    step: Array
+    measured: Mapping[str, Array]
+    smooth: Mapping[str, Smooth]
+    """Columns without noise; ``length`` is the contraction with its corners sharp."""
+    cycle: Array
+    repeat: Array
+    direction: Array
+    """Direction of travel, 0 before there was any. [-]"""
+    still: Array
+    """Time since the command last moved. [s]"""
+    slices: tuple[slice, ...] = (slice(None),)
+    """Samples of each sweep."""
+    start: float = 0.0
+    """When the recording began. [s]"""
+
+    def __len__(self) -> int:
+        """Number of samples."""
+        return self.time.size
+
+    def column(self, name: str) -> Array:
+        """Measured column, NaN when there is none."""
+        if name in self.measured:
+            return self.measured[name]
+        return np.full_like(self.time, np.nan)
+
+    def level(self, name: str) -> Array:
+        """Column without its noise where that was taken off."""
+        return self.smooth[name].value if name in self.smooth else self.column(name)
+
+    def hush(self, name: str) -> float:
+        """One sigma of the noise taken off a column, as a mean of many has it."""
+        return self.smooth[name].variance ** 0.5 if name in self.smooth else 0.0
+
+    def rate(self, name: str) -> Array:
+        """Rate of a column, 0 where its noise was not taken off. [1/s]."""
+        return (
+            self.smooth[name].rate if name in self.smooth else np.zeros_like(self.time)
+        )
+
+    @cached_property
+    def inflating(self) -> Array:
+        """Direction of the pressure, 0 before it moved and when not known. [-]."""
+        pressure = self.level("pressure")
+        return np.concatenate([_inflating(pressure[run]) for run in self.slices])
+
+    @cached_property
+    def resting(self) -> Mask:
+        """Samples of sweeps without travel."""
+        directions = [self.direction[run] for run in self.slices]
+        return np.concatenate([np.full(d.size, not d.any()) for d in directions])
+
+
+def _inflating(pressure: Array) -> Array:
+    if not np.isfinite(pressure).all():
+        return np.zeros_like(pressure)
+    least = max(TURNED * float(np.ptp(pressure)), LEAST_TURNED)
+    return travel(pressure, least, PLATEAU * least)
+
+
+def joined(courses: Sequence[Course]) -> Course:
+    """Lay sweeps end to end: many short arrays cost more than a long one."""
+    if len(courses) == 1:
+        return courses[0]
+    ends = np.cumsum([len(course) for course in courses]).tolist()
+    measured = dict.fromkeys(name for course in courses for name in course.measured)
+    smooth = dict.fromkeys(name for course in courses for name in course.smooth)
+    return Course(
+        run="",
+        kind=None,
+        time=np.concatenate([course.time for course in courses]),
+        step=np.concatenate([course.step for course in courses]),
+        measured={
+            name: np.concatenate([course.column(name) for course in courses])
+            for name in measured
+        },
+        smooth={
+            name: Smooth(
+                np.concatenate([course.level(name) for course in courses]),
+                np.concatenate([course.rate(name) for course in courses]),
+            )
+            for name in smooth
+        },
+        cycle=np.concatenate([course.cycle for course in courses]),
+        repeat=np.concatenate([course.repeat for course in courses]),
+        direction=np.concatenate([course.direction for course in courses]),
+        still=np.concatenate([course.still for course in courses]),
+        slices=tuple(
+            slice(end - len(course), end)
+            for course, end in zip(courses, ends, strict=True)
+        ),
+        start=courses[0].start,
+    )
+
+
+def is_table(sweeps: Sequence[Course]) -> bool:
+    """Tell whether a recording lists settled points, with a counter for a clock."""
+    return all(
+        np.all(course.step[1:] == 1.0)
+        and np.median(np.abs(np.diff(course.level("pressure"))))
+        > LEAP * np.ptp(course.level("pressure"))
+        for course in sweeps
+    )

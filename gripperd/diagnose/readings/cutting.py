@@ -1,0 +1,131 @@
+"""A recording cut into sweeps, each with all that is known of its course."""
+
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+
+import numpy as np
+
+from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cycle import cycles
+from gripperd.diagnose.readings.level import levels
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.readings.row import rows
+from gripperd.diagnose.readings.travel import STILL, TRAVEL, noticed, travel
+from gripperd.model.compiled import compiled
+from gripperd.model.track import Array
+
+PAUSE = 40.0
+"""A gap this many sampling steps long ends one sweep and begins another."""
+SHORTEST_PAUSE = 2.0
+"""Nor is a shorter gap a pause. [s]"""
+MOVES = 5e-5
+"""Change of current that is a new command: 0.3 % of the span. [A]"""
+
+
+def courses(
+    recording: Recording, rest_length: float
+) -> tuple[tuple[Course, ...], Mapping[str, Noise]]:
+    """Cut a recording into sweeps and take the noise off what effects look at.
+
+    Parameters
+    ----------
+    recording
+        Screened.
+    rest_length
+        L_N, to which a measured length refers. [m]
+
+    Returns
+    -------
+    The sweeps in order, and the quick noise of each measured column.
+    """
+    sweeps = [
+        piece
+        for run in recording.runs
+        for piece in _pieces(_with_contraction(run, rest_length))
+    ]
+    names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
+    readings = {
+        name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
+        for name in names
+    }
+    noises = {
+        name: quick_noise(columns, coarse_step(columns))
+        for name, columns in readings.items()
+    }
+    for name, std in recording.noise.items():
+        if name in noises and std > noises[name].std:
+            noises[name] = Noise(std, noises[name].correlation)
+    start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
+    return tuple(
+        _course(sweep, noises, cycle, repeat, start)
+        for sweep, cycle, repeat in zip(
+            sweeps, cycles(sweeps), rows(sweeps), strict=True
+        )
+    ), noises
+
+
+def _course(
+    sweep: Run, noises: Mapping[str, Noise], cycle: Array, repeat: float, start: float
+) -> Course:
+    time = sweep.columns["time"]
+    smoothed = levels(sweep, noises)
+    return Course(
+        sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
+        sweep.columns, smoothed, cycle, np.full(time.size, repeat),
+        _directions(smoothed.get("contraction"), time), _stillness(sweep), start=start,
+    )  # fmt: skip
+
+
+def _with_contraction(run: Run, rest_length: float) -> Run:
+    if "contraction" in run.columns or "length" not in run.columns:
+        return run
+    contraction = (rest_length - run.columns["length"]) / rest_length
+    return Run(run.name, {**run.columns, "contraction": contraction}, run.kind)
+
+
+def _pieces(run: Run) -> Iterator[Run]:
+    """Cut a run at its pauses; a single piece keeps the name of the run."""
+    time = run.columns["time"]
+    steps = np.diff(time)
+    if steps.size == 0:
+        return
+    long = np.flatnonzero(steps > max(PAUSE * float(np.median(steps)), SHORTEST_PAUSE))
+    cuts = [0, *(long + 1), time.size]
+    for index, (start, end) in enumerate(pairwise(cuts)):
+        if end - start < 4:
+            continue
+        name = run.name if len(cuts) == 2 else f"{run.name}#{index + 1}"
+        columns = {key: value[start:end] for key, value in run.columns.items()}
+        yield Run(name, columns, run.kind)
+
+
+def _directions(contraction: Smooth | None, time: Array) -> Array:
+    """Direction of travel, sample by sample, kept at rest.
+
+    A travel counts once it has gone :data:`TRAVEL`, so noise does not turn it round.
+    """
+    if contraction is None or not np.isfinite(contraction.value).all():
+        return np.zeros_like(time)
+    if np.ptp(contraction.value) < STILL:
+        return np.zeros_like(time)
+    return travel(contraction.value, TRAVEL, noticed(contraction.variance**0.5))
+
+
+def _stillness(sweep: Run) -> Array:
+    """Time since the command last moved. [s]."""
+    time = sweep.columns["time"]
+    if not sweep.has("current"):
+        return np.full_like(time, np.nan)
+    return compiled(_since)(sweep.columns["current"], time, MOVES)
+
+
+def _since(value: Array, time: Array, least: float) -> Array:
+    out = np.empty_like(value)
+    held, since = value[0], time[0]
+    for i in range(value.size):
+        if abs(value[i] - held) > least:
+            held, since = value[i], time[i]
+        out[i] = time[i] - since
+    return out

@@ -1,0 +1,144 @@
+"""Levels: the columns of one sweep without their noise."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import isotonic_regression
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.noise.smoothing import Smooth, smooth
+from gripperd.diagnose.readings.recording import Run
+from gripperd.diagnose.readings.travel import STILL, TRAVEL, leaning, noticed, travel
+from gripperd.model.memory import begin, lag
+
+SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
+LATE = (1e-3, 0.03, 0.1, 0.3, 1.0)
+"""Lags tried between command and pressure. [s]"""
+STEP = 0.06
+"""Share of the range of the command from which one sample is a step. [-]"""
+QUICK = 0.04
+"""Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
+SUPPLE = 1e4
+"""A length is measured well: its corners matter more than its noise."""
+LEAST = 20
+"""Samples that a plane is laid through."""
+
+
+def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
+    """Take the noise off every column that effects look at.
+
+    Parameters
+    ----------
+    sweep
+        Without a pause.
+    noises
+        Of each measured column, by its name.
+
+    Returns
+    -------
+    Columns by name; ``length`` is the contraction with its corners sharp.
+    """
+    time = sweep.columns["time"]
+    found = {
+        name: smooth(time, sweep.columns[name], noises[name].slow_variance)
+        for name in SMOOTHED
+        if sweep.has(name)
+    }
+    if "contraction" in found:
+        found["length"] = _length(sweep, noises)
+        found["contraction"] = _steady(found["contraction"])
+    if "pressure" in found and sweep.has("current"):
+        found["pressure"] = _beside_command(sweep, found["pressure"], noises)
+    if {"pressure", "contraction", "force"} <= found.keys():
+        found["force"] = _beside_pressure(sweep, found, noises)
+    return found
+
+
+def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
+    """Contraction whose corners stay sharp, at the price of some noise."""
+    variance = noises["contraction"].slow_variance
+    time, contraction = sweep.columns["time"], sweep.columns["contraction"]
+    return smooth(time, contraction, variance, SUPPLE)
+
+
+def _steady(known: Smooth) -> Smooth:
+    """Take the wiggles out: there is no travel below the least, and none back.
+
+    What remembers would take each wiggle for a reversal. Between reversals the column
+    becomes the nearest monotone one (isotonic regression).
+    """
+    value = known.value
+    if not np.isfinite(value).all():
+        return known
+    still = np.ptp(value) < STILL
+    signs = (
+        0.0 * value if still else travel(value, TRAVEL, noticed(known.variance**0.5))
+    )
+    cuts = [0, *(np.flatnonzero(np.diff(signs)) + 1), value.size]
+    out = value.copy()
+    for start, end in pairwise(cuts):
+        piece, sign = slice(start, end), signs[start]
+        if sign == 0:
+            out[piece] = value[piece].mean()
+        else:
+            out[piece] = isotonic_regression(value[piece], increasing=bool(sign > 0)).x
+    if not signs.any():
+        return known._replace(value=out, rate=0.0 * value)
+    return known._replace(value=out)
+
+
+def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:
+    """Pressure as the command, followed so late, plus a smooth difference.
+
+    The command has corners that no trend can follow, and no noise. Taken when likelier
+    than a trend alone.
+    """
+    current, pressure = sweep.columns["current"], sweep.columns["pressure"]
+    good = np.isfinite(current) & np.isfinite(pressure)
+    if not np.isfinite(current).all() or good.sum() < 8 or np.ptp(current) == 0:
+        return plain
+    slope, level = np.polyfit(current[good], pressure[good], 1)
+    command = level + slope * current
+    time, variance = sweep.columns["time"], noises["pressure"].slow_variance
+    step = np.diff(time, prepend=time[0])
+    # Samples so far apart tell nothing of how it went at a leap, but a trend would.
+    leaps = np.abs(np.diff(command, prepend=command[0])) > STEP * np.ptp(command)
+    unknown = leaps & (step > QUICK)
+    pressure = np.where(unknown, np.nan, pressure)
+    best = smooth(time, pressure, variance) if unknown.any() else plain
+    for late in LATE:
+        followed = lag(command, step, late, late, begin())
+        beside = smooth(time, pressure - followed, variance)
+        if beside.likelihood > best.likelihood:
+            rate = beside.rate + np.gradient(followed, time)
+            best = beside._replace(value=beside.value + followed, rate=rate)
+    return best
+
+
+def _beside_pressure(
+    sweep: Run, known: Mapping[str, Smooth], noises: Mapping[str, Noise]
+) -> Smooth:
+    """Force as pressure and contraction make it, plus a smooth difference.
+
+    Within one sweep a twisted plane for each way is close enough; it has the corners
+    that no trend can follow. Taken when likelier than a trend alone.
+    """
+    time, force = sweep.columns["time"], sweep.columns["force"]
+    pressure, contraction = known["pressure"].value, known["contraction"].value
+    rubbing = leaning(pressure)
+    plane = np.column_stack([
+        np.ones_like(time), pressure, contraction, pressure * contraction,
+        rubbing, rubbing * pressure,
+    ])  # fmt: skip
+    plane /= np.maximum(np.abs(plane).max(axis=0), 1e-300)
+    good = np.isfinite(force) & np.isfinite(plane).all(axis=1)
+    if not np.isfinite(plane).all() or good.sum() < LEAST:
+        return known["force"]
+    followed = plane @ np.linalg.lstsq(plane[good], force[good], rcond=1e-6)[0]
+    variance = noises["force"].slow_variance
+    beside = smooth(time, force - followed, variance)
+    if beside.likelihood <= known["force"].likelihood:
+        return known["force"]
+    rate = beside.rate + np.gradient(followed, time)
+    return beside._replace(value=beside.value + followed, rate=rate)

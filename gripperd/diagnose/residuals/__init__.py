@@ -1,0 +1,1 @@
+"""A recording against a model: what each stage should read, and what is left."""

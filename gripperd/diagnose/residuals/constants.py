@@ -1,0 +1,209 @@
+"""Constants of a model that may move within their tolerance, and by how much."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+
+import numpy as np
+
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.model.effect import Signal
+
+PLAIN = 0.0115
+"""Tolerance of a constant without a stated one, relative, one sigma: parts are made to
+about 2 %, and anywhere within is as likely (2 % / root 3). [-]"""
+TOLERATED = 2.0
+"""How far a part may be off, in sigma of its tolerance; beyond it is another part."""
+MADE = 3**0.5
+"""The same of a part without a stated one: where what is anywhere within ends."""
+NUISANCE = 2.6
+"""The same of what has no tolerance, such as the zero of a sensor."""
+
+ZERO = 1e-3
+"""Zero error that any transmitter has, of full scale, one sigma. [-]"""
+
+CONTRACTION_ZERO = 3e-4
+"""The same for contraction: 0.1 mm on 250 mm is 4e-4. [-]"""
+
+RESPONSE = 0.02
+"""Time in which a piezo or solenoid regulator follows, and how far that may be off:
+10 to 60 ms at the outlet. [s]"""
+
+SKEW = 0.004
+"""Time between the samples of two channels of one scan, one sigma. [s]"""
+SKEWED = ("pressure", "contraction")
+
+FRICTION = 0.1
+"""No coefficient of friction repeats better than that, whatever is stated. [-]"""
+
+RESTING = 0.4
+"""Prior of the sign of friction before any travel: with the bounds of a constant it
+stays between -1 and 1. [-]"""
+
+MUSCLE = (
+    "rest_length",
+    "diameter", "braid_angle", "wall_thickness", "elastic_modulus",
+    "friction_coefficient",
+)  # fmt: skip
+PARTS = ("muscle", "valve", "gripper")
+"""Parts of a model, with tolerances; the rest is how it was measured."""
+VALVE = ("pressure_low", "pressure_high")
+GRIPPER = ("open_width", "ratio", "spring_preload", "spring_rate")
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """One number of the model and how far it may be off."""
+
+    path: str
+    """As in tolerances, such as ``muscle.diameter``."""
+    nominal: float
+    sigma: float
+    stated: bool
+    """Whether the model file states the tolerance."""
+    usual: float = 0.0
+    """The sigma of parts as they are made; 0 of what is no part."""
+
+    @property
+    def moves(self) -> frozenset[Signal]:
+        """Signals it changes."""
+        return _MOVES.get(self.path) or _MOVES[self.path.partition(".")[0]]
+
+    @property
+    def reach(self) -> float:
+        """How far it may be off, in sigma."""
+        if self.path.partition(".")[0] not in PARTS:
+            return NUISANCE
+        return TOLERATED if self.stated else MADE
+
+    @property
+    def course(self) -> int | None:
+        """The only sweep it changes, if there is but one."""
+        owner, _, name = self.path.partition(".")
+        return int(name) if owner == "rest" else None
+
+
+_JAWS = frozenset({Signal.OPENING, Signal.GRIP})
+_MOVES: Mapping[str, frozenset[Signal]] = {
+    "muscle": frozenset({Signal.FORCE}),
+    "muscle.rest_length": _JAWS | {Signal.FORCE},
+    "valve": frozenset({Signal.PRESSURE}),
+    "gripper": _JAWS,
+    "rest": frozenset({Signal.FORCE}),
+    "response.valve": frozenset({Signal.PRESSURE}),
+    "skew.pressure": frozenset({Signal.FORCE}),
+    "skew.contraction": _JAWS | {Signal.FORCE},
+    "skew.opening": frozenset({Signal.OPENING}),
+    "skew.grip": frozenset({Signal.GRIP}),
+    "zero.pressure": frozenset({Signal.PRESSURE, Signal.FORCE}),
+    "zero.contraction": _JAWS | {Signal.FORCE},
+    "zero.force": frozenset({Signal.FORCE, Signal.GRIP}),
+    "zero.opening": frozenset({Signal.OPENING}),
+    "zero.grip": frozenset({Signal.GRIP}),
+}
+
+
+def constants(
+    explanation: Explanation,
+    tolerances: Mapping[str, float],
+    full_scale: Mapping[Signal, float],
+    resting: Sequence[int],
+) -> tuple[Constant, ...]:
+    """Every constant that matters to what was measured.
+
+    Parameters
+    ----------
+    explanation
+        The model at its nominal constants.
+    tolerances
+        One sigma by path, as the model file states them. [SI]
+    full_scale
+        Largest value of each measured signal. [SI]
+    resting
+        Sweeps without travel, by index.
+    """
+    found = [
+        constant
+        for owner, names in (("muscle", MUSCLE), ("valve", VALVE), ("gripper", GRIPPER))
+        for constant in _of_part(explanation, owner, names, tolerances)
+    ]
+    found += [
+        Constant(f"zero.{signal.value}", 0.0, _zero(signal) * scale, stated=False)
+        for signal, scale in full_scale.items()
+    ]
+    if explanation.regulator is not None and Signal.PRESSURE in full_scale:
+        found.append(Constant("response.valve", RESPONSE, RESPONSE, stated=False))
+    skewed: tuple[str, ...] = SKEWED if Signal.FORCE in full_scale else ()
+    skewed += tuple(signal.value for signal in full_scale if signal in _JAWS)
+    found += [Constant(f"skew.{name}", 0.0, SKEW, stated=False) for name in skewed]
+    found += [Constant(f"rest.{i}", 0.0, RESTING, stated=False) for i in resting]
+    return tuple(found)
+
+
+def _zero(signal: Signal) -> float:
+    return CONTRACTION_ZERO if signal is Signal.CONTRACTION else ZERO
+
+
+def _of_part(
+    explanation: Explanation,
+    owner: str,
+    names: Sequence[str],
+    tolerances: Mapping[str, float],
+) -> Iterator[Constant]:
+    part = _part(explanation, owner)
+    for name in names if part is not None else ():
+        path = f"{owner}.{name}"
+        nominal = float(getattr(part, name))
+        usual = PLAIN * abs(nominal)
+        if name == "pressure_low":
+            assert explanation.regulator is not None
+            usual = PLAIN / 4 * explanation.regulator.pressure_high
+        sigma = tolerances.get(path, usual)
+        if name == "friction_coefficient":
+            usual = FRICTION * nominal
+            sigma = max(sigma, usual)
+        if sigma > 0 and isfinite(sigma):
+            yield Constant(path, nominal, sigma, path in tolerances, usual)
+
+
+def moved(
+    explanation: Explanation, listed: Sequence[Constant], shifts: Sequence[float]
+) -> Explanation:
+    """Give the explanation with each constant off by so many sigma."""
+    values: dict[str, dict[str, float]] = {}
+    for constant, shift in zip(listed, shifts, strict=True):
+        owner, _, name = constant.path.partition(".")
+        moved_to = constant.nominal + shift * constant.sigma
+        values.setdefault(owner, {})[name] = moved_to
+    return replace(
+        explanation,
+        muscle=replace(explanation.muscle, **_kept(values.get("muscle", {}))),
+        regulator=explanation.regulator
+        and replace(explanation.regulator, **values.get("valve", {})),
+        linkage=explanation.linkage
+        and replace(explanation.linkage, **values.get("gripper", {})),
+        zeros={Signal(name): zero for name, zero in values.get("zero", {}).items()},
+        rests={
+            int(name): min(max(sign, -1.0), 1.0)
+            for name, sign in values.get("rest", {}).items()
+        },
+        skews={Signal(name): skew for name, skew in values.get("skew", {}).items()},
+        response=max(values.get("response", {}).get("valve", 0.0), 0.0),
+    )
+
+
+def _kept(values: Mapping[str, float]) -> dict[str, float]:
+    """Keep the constants of a muscle within what could be made at all."""
+    limits = {"braid_angle": (0.09, 0.95), "friction_coefficient": (0.0, 2.0)}
+    return {
+        name: float(np.clip(value, *limits.get(name, (1e-6, 1e12))))
+        for name, value in values.items()
+    }
+
+
+def _part(explanation: Explanation, owner: str) -> object | None:
+    return {
+        "muscle": explanation.muscle,
+        "valve": explanation.regulator,
+        "gripper": explanation.linkage,
+    }[owner]

@@ -1,0 +1,152 @@
+"""Sweeps that take no part in choosing or fitting, on which the gap is judged.
+
+References
+----------
+.. [1] D. R. Roberts et al., "Cross-validation strategies for data with temporal,
+       spatial, hierarchical, or phylogenetic structure", Ecography 40(8), 913-929,
+       2017: leave out whole blocks, for neighbours share noise and memory.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.residuals.problem import Problem
+
+SHARE = 0.2
+"""Of the sweeps that can be spared. [-]"""
+FEW = 5
+"""With fewer sweeps none can be spared: the end of each is left out instead."""
+HELD = 0.03
+"""Within this share of the highest pressure a sweep is a hold. [-]"""
+TAIL = 0.25
+"""Part of a sweep that is left out then. [-]"""
+FEW_JAWS = 3
+"""With fewer sweeps of the jaws none of them can be spared."""
+SURE = 5.0
+"""Standard deviations of its noise from which a grip is one. [-]"""
+
+
+@dataclass(frozen=True)
+class Split:
+    """A recording in two parts that share no sweep, or no stretch of one."""
+
+    train: Problem
+    test: Problem
+    runs: tuple[str, ...]
+    """Names of what was left out."""
+
+
+def split(problem: Problem) -> Split:
+    """Leave out every fifth sweep that lies within what the others cover."""
+    courses = problem.courses
+    if len(courses) < FEW:
+        cut = [_tail(course) for course in courses]
+        names = tuple(f"{course.run} (last quarter)" for course in courses)
+    else:
+        out = _spared(courses)
+        cut = [
+            np.full(len(course), index in out) for index, course in enumerate(courses)
+        ]
+        names = tuple(courses[index].run for index in sorted(out))
+    test = tuple(cut)
+    train = tuple(~mask for mask in cut)
+    return Split(replace(problem, kept=train), replace(problem, kept=test), names)
+
+
+def _tail(course: Course) -> Mask:
+    mask = np.zeros(len(course), dtype=bool)
+    mask[round((1 - TAIL) * len(course)) :] = True
+    return mask
+
+
+def _spared(courses: Sequence[Course]) -> set[int]:
+    """Sweeps whose inputs lie inside the range of the rest, spread over the order.
+
+    The first of a recording stays: only it can show a first inflation.
+    """
+    wanted = max(1, round(SHARE * len(courses)))
+    top = max(
+        float(np.nanmax(course.level("pressure"), initial=0.0)) for course in courses
+    )
+    inner = [
+        index
+        for index in range(1, len(courses))
+        if inside(courses, index) and not _still(courses[index], top)
+    ] or list(range(1, len(courses)))
+    grasps = [index for index, course in enumerate(courses) if _gripped(course)]
+    # One grasp at most: the constants of the jaws are known from the others alone.
+    spare = [index for index in inner if index in grasps][-1:]
+    # Of three it must be one, or no sweep judges the jaws.
+    spared = set((spare or grasps[-1:]) if len(grasps) >= FEW_JAWS else [])
+    rest = [i for i in inner if i not in grasps or (i in spare and not spared)]
+    moving = [index for index in rest if _travelled(courses[index])]
+    resting = [index for index in rest if index not in moving]
+    wanted = max(1, wanted - len(spared))
+    of_moving = round(wanted * len(moving) / max(len(rest), 1))
+    spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
+    jaws = [index for index, course in enumerate(courses) if _opens(course)]
+    if len(jaws) >= FEW_JAWS and not spared & set(jaws):
+        spared.add(jaws[-1])
+    return spared
+
+
+def _spread(places: Sequence[int], count: int) -> list[int]:
+    """So many of a row, evenly, and not its ends."""
+    if not places:
+        return []
+    chosen = np.linspace(0, len(places) - 1, count + 2)[1:-1]
+    return [places[round(place)] for place in chosen.tolist()]
+
+
+def _opens(course: Course) -> bool:
+    return bool(np.isfinite(course.column("opening")).any())
+
+
+def _gripped(course: Course) -> bool:
+    """Whether jaws press on something."""
+    grip = course.column("grip")
+    return bool(np.nanmax(grip, initial=0.0) > course.hush("grip") * SURE)
+
+
+def _travelled(course: Course) -> bool:
+    return bool(np.ptp(course.direction) == 2)
+
+
+def _still(course: Course, top: float) -> bool:
+    """Whether hardly anything moves: a hold is what the drift is known from.
+
+    Most of its samples lie within a small part of what it went through to get there.
+    """
+    pressure = course.level("pressure")
+    if _travelled(course) or not np.isfinite(pressure).any():
+        return False
+    low, high = np.nanquantile(pressure, (0.2, 0.9))
+    return bool(high - low <= HELD * top)
+
+
+def inside(courses: Sequence[Course], index: int) -> bool:
+    """Whether other sweeps reach as far as this one, in every input.
+
+    What the jaws do grows with the grip, so that it is one.
+    """
+    for name in ("current", "pressure", "contraction", "temperature", "grip"):
+        own = courses[index].level(name)
+        if not np.isfinite(own).any():
+            continue
+        others = [
+            course.level(name)
+            for place, course in enumerate(courses)
+            if place != index and np.isfinite(course.level(name)).any()
+        ]
+        if not others:
+            return False
+        low = min(float(np.nanmin(other)) for other in others)
+        high = max(float(np.nanmax(other)) for other in others)
+        margin = 0.02 * (high - low)
+        if np.nanmin(own) < low - margin or np.nanmax(own) > high + margin:
+            return False
+    return True

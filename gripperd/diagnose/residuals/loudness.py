@@ -1,0 +1,96 @@
+"""How loud each signal is: white noise, its memory, and drift."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.noise.drift import thinned, with_drift
+from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
+from gripperd.diagnose.readings.course import Course, is_table
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.quiet import driven, vented
+from gripperd.model.effect import Signal
+
+POINTS = 0.002
+"""Noise of settled points in a table, of full scale. [-]"""
+RESOLUTION = 1e-4
+"""Of any reading, of full scale. [-]"""
+REVERSIBLE = 0.003
+"""Difference between a rising and a falling reading of the grip, of the largest, that
+says nothing of the joints: reversibility of a transducer of class 1, ISO 376. [-]"""
+TURNS = 3.0
+"""Time in which a grip that rises turns to one that falls. [s]"""
+
+
+def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
+    """Tell the noise of every signal that is explained.
+
+    Parameters
+    ----------
+    problem
+        Without what is held out.
+    point
+        The best constants, with nothing added. What repeats is no noise.
+
+    Returns
+    -------
+    Noise by signal. [SI]
+    """
+    residuals = problem.residuals(point)
+    found: dict[Signal, Noise] = {}
+    for signal in problem.signals:
+        indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
+        step = coarse_step(c.column(signal.value) for c in problem.courses)
+        noise = quick_noise((residuals[i] for i in indices), step)
+        if is_table(problem.courses):
+            # Neighbours are no repeats of each other; instruments of a test stand.
+            noise = Noise(POINTS * problem.full_scale[signal], 0.0)
+        noise = _audible(noise, signal, problem.courses)
+        quiet = thinned(
+            [*vented(problem, signal), *driven(problem, residuals, indices)]
+        )
+        found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
+    return _handed_on(found, problem)
+
+
+def _audible(noise: Noise, signal: Signal, sweeps: tuple[Course, ...]) -> Noise:
+    """A reading without any noise is still no better than its display."""
+    columns = np.concatenate([sweep.column(signal.value) for sweep in sweeps])
+    top = float(np.nanmax(np.abs(columns), initial=0.0)) or 1.0
+    return replace(noise, std=max(noise.std, RESOLUTION * top))
+
+
+def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, Noise]:
+    """Give the grip what is wrong with the force that it is predicted from.
+
+    Both are compared reading by reading, so that the residual has the noise of two
+    cells, and the drift of both beside what neither repeats when it turns round. None
+    is told from that residual, which is short. Sums keep the variance of a reading and
+    of a mean over many.
+    """
+    force, grip, linkage = (
+        noises.get(Signal.FORCE), noises.get(Signal.GRIP), problem.model.linkage,
+    )  # fmt: skip
+    if force is None or grip is None or linkage is None:
+        return noises
+    own = grip if is_table(problem.courses) else _of_grip(problem)
+    fast = own.std**2 + (force.std / linkage.ratio) ** 2
+    mean = own.slow_variance + force.slow_variance / linkage.ratio**2
+    correlation = (mean - fast) / (mean + fast)
+    turned = REVERSIBLE * problem.full_scale[Signal.GRIP]
+    slow = np.square([grip.drift, force.drift / linkage.ratio, turned])
+    memory = float(np.average([grip.memory, force.memory, TURNS], weights=slow))
+    drift = float(slow.sum() ** 0.5)
+    return noises | {Signal.GRIP: Noise(fast**0.5, correlation, drift, memory)}
+
+
+def _of_grip(problem: Problem) -> Noise:
+    """Noise of the grip's own cell, from its readings on an object."""
+    readings = [
+        problem.courses[block.course].column("grip")[block.good]
+        for block in problem.blocks
+        if block.signal is Signal.GRIP
+    ]
+    noise = quick_noise(readings, coarse_step(readings))
+    return _audible(noise, Signal.GRIP, problem.courses)

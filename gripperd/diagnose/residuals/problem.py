@@ -1,0 +1,212 @@
+"""One recording against one model: what it says, and what is left."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.noise.whitening import innovations, law_of
+from gripperd.diagnose.readings.course import Course, joined
+from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.residuals.block import Block, Group
+from gripperd.diagnose.residuals.constants import NUISANCE, Constant, moved
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.runs import Runs
+from gripperd.diagnose.residuals.stages import passed_on, predictable, predicted
+from gripperd.diagnose.residuals.track import track_of
+from gripperd.diagnose.residuals.usable import usable
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+_NOTHING: Array = np.empty(0)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What was measured, what the model says, and how loud the noise is."""
+
+    courses: tuple[Course, ...]
+    model: Explanation
+    constants: tuple[Constant, ...]
+    noises: Mapping[Signal, Noise]
+    slack: float = -np.inf
+    """Force below which the muscle may be slack and tells nothing. [N]"""
+    temperatures: Mapping[Signal, float] = field(default_factory=dict)
+    """How much louder noises are taken than they were measured, in squares. [-]"""
+    kept: tuple[Mask, ...] = ()
+    """Samples of each course that take part; all when empty."""
+    dwells: tuple[Block, ...] = ()
+    """Stretches that are judged once more, each about a level of its own."""
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        """Every signal of every sweep that has samples to explain, then the dwells."""
+        found = []
+        for index, course in enumerate(self.courses):
+            for signal in predictable(course):
+                if signal not in self.noises or not self._has_part(signal):
+                    continue
+                good = usable(course, signal, course.hush(signal.value))
+                if signal is Signal.FORCE:
+                    good &= course.level("force") > self.slack
+                if self.kept:
+                    good &= self.kept[index]
+                if good.sum() >= 4:
+                    found.append(Block(index, signal, good))
+        return (*found, *self.dwells)
+
+    def _has_part(self, signal: Signal) -> bool:
+        if signal is Signal.PRESSURE:
+            return self.model.regulator is not None
+        if signal in (Signal.OPENING, Signal.GRIP):
+            return self.model.linkage is not None
+        return True
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """Those explained anywhere."""
+        return tuple(dict.fromkeys(block.signal for block in self.blocks))
+
+    def temperature(self, signals: Iterable[Signal]) -> float:
+        """Give the highest of some signals; 1 where the noise is reached. [-]."""
+        return max((self.temperatures.get(one, 1.0) for one in signals), default=1.0)
+
+    @property
+    def is_hot(self) -> bool:
+        """Whether misfit, not noise, is what explanations are weighed against."""
+        return self.temperature(self.signals) > 1
+
+    def reach(self, point: Point) -> Array:
+        """How far each constant may be off, in widths of its prior."""
+        reach = np.array([constant.reach for constant in self.constants])
+        reach[list(point.freed)] = NUISANCE
+        return reach
+
+    def explanation(self, point: Point) -> Explanation:
+        """Give the model at a point."""
+        model = moved(self.model, self.constants, point.shifts.tolist())
+        for effect in point.effects:
+            model = model.with_effect(effect)
+        return model
+
+    def tracks(self, explanation: Explanation) -> tuple[Runs, ...]:
+        """What happened, as the explanation has it, in the order of the groups."""
+        return tuple(
+            track_of(explanation, group.whole, *group.places) for group in self.groups
+        )
+
+    def expected(
+        self,
+        explanation: Explanation,
+        signals: frozenset[Signal] | None = None,
+        tracks: Sequence[Runs] | None = None,
+    ) -> list[Array]:
+        """Predicted readings block by block; an empty array for what is not asked.
+
+        Parameters
+        ----------
+        explanation
+            What is thought to act.
+        signals
+            Those asked for; none for all.
+        tracks
+            What happened, when at hand.
+        """
+        found: dict[tuple[int, Signal], Array] = {}
+        for number, (places, shown, whole) in enumerate(self.groups):
+            wanted = [one for one in shown if not signals or one in signals]
+            if not wanted:
+                continue
+            track = tracks[number] if tracks else track_of(explanation, whole, *places)
+            for signal, value in predicted(explanation, whole, wanted, track).items():
+                for place, piece in zip(places, whole.slices, strict=True):
+                    found[place, signal] = value[piece]
+        return [
+            found[block.course, block.signal][block.good]
+            if (block.course, block.signal) in found
+            else _NOTHING
+            for block in self.blocks
+        ]
+
+    @cached_property
+    def groups(self) -> tuple[Group, ...]:
+        """Sweeps that explain the same signals, to be predicted at once."""
+        shown: dict[int, tuple[Signal, ...]] = {}
+        for block in self.blocks:
+            known = (*shown.get(block.course, ()), block.signal)
+            shown[block.course] = tuple(dict.fromkeys(known))
+        places: dict[tuple[Signal, ...], list[int]] = {}
+        for place, signals in shown.items():
+            places.setdefault(signals, []).append(place)
+        return tuple(
+            Group(tuple(own), signals, joined([self.courses[place] for place in own]))
+            for signals, own in places.items()
+        )
+
+    @cached_property
+    def measured(self) -> list[Array]:
+        """Readings block by block, less what smooth inputs leave out. [SI]."""
+        found: list[Array] = []
+        for block in self.blocks:
+            course = self.courses[block.course]
+            track = track_of(self.model, course, block.course)
+            passed = passed_on(self.model, course, track, block.signal)
+            found.append((course.column(block.signal.value) - passed)[block.good])
+        return found
+
+    @cached_property
+    def times(self) -> list[Array]:
+        """Times block by block. [s]."""
+        return [self.courses[b.course].time[b.good] for b in self.blocks]
+
+    @cached_property
+    def full_scale(self) -> dict[Signal, float]:
+        """Largest reading of each signal. [SI]."""
+        found: dict[Signal, float] = {}
+        for block, values in zip(self.blocks, self.measured, strict=True):
+            top = float(np.max(np.abs(values)))
+            found[block.signal] = max(found.get(block.signal, 0.0), top)
+        return found
+
+    @cached_property
+    def lowest(self) -> dict[Signal, float]:
+        """Lowest level of each signal that was measured, explained or not. [SI]."""
+        return {signal: float(np.min(values)) for signal, values in self._levels()}
+
+    @cached_property
+    def highest(self) -> dict[Signal, float]:
+        """Highest magnitude of the same. [SI]."""
+        return {s: float(np.max(np.abs(values))) for s, values in self._levels()}
+
+    def _levels(self) -> Iterator[tuple[Signal, Array]]:
+        for signal in Signal:
+            levels = [course.level(signal.value) for course in self.courses]
+            known = np.concatenate(levels)
+            known = known[np.isfinite(known)]
+            if known.size:
+                yield signal, known
+
+    def residuals(self, point: Point) -> list[Array]:
+        """Measured minus expected, block by block. [SI]."""
+        expected = self.expected(self.explanation(point))
+        return [y - f for y, f in zip(self.measured, expected, strict=True)]
+
+    def white(self, columns: Sequence[Array], index: int) -> Array:
+        """Whiten columns of one block, shape ``(n, k)``."""
+        return innovations(np.column_stack(columns), *self._laws[index])
+
+    @cached_property
+    def _laws(self) -> list[tuple[Array, Array]]:
+        """Steps and law of the noise block by block."""
+        return [
+            law_of(time, block.noise or self.noises[block.signal])
+            for block, time in zip(self.blocks, self.times, strict=True)
+        ]
+
+    @cached_property
+    def zeros(self) -> list[Array]:
+        """No change, block by block."""
+        return [np.zeros(int(block.good.sum())) for block in self.blocks]

@@ -1,0 +1,99 @@
+"""Quiet places of a recording, from which the drift of a sensor is read."""
+
+import numpy as np
+
+from gripperd.diagnose.noise.drift import Quiet, hold, repeat
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.recording import Run
+from gripperd.diagnose.readings.row import alike
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+VENTED = 0.03
+"""Below this share of the highest pressure a muscle is empty. [-]"""
+HELD = 0.03
+"""Within this share of the highest pressure it is held. [-]"""
+LONG_ENOUGH = 10.0
+"""A shorter hold says nothing about drift. [s]"""
+
+
+def vented(problem: Problem, signal: Signal) -> list[Quiet]:
+    """Readings of a vented muscle that holds no force: nothing but noise."""
+    if signal not in (Signal.PRESSURE, Signal.FORCE):
+        return []
+    top = problem.highest.get(Signal.PRESSURE, 0.0)
+    found: list[Quiet] = []
+    for index, course in enumerate(problem.courses):
+        reading = course.column(signal.value)
+        good = np.isfinite(reading)
+        if problem.kept:
+            good &= problem.kept[index]
+        if good.sum() < 20 or not _holds(course, top):
+            continue
+        empty = float(np.nanmean(course.level("pressure"))) < VENTED * top
+        if empty and np.ptp(course.time[good]) >= LONG_ENOUGH:
+            found.append(hold(course.time[good], reading[good], creeps=False))
+    return found
+
+
+def driven(problem: Problem, residuals: list[Array], indices: list[int]) -> list[Quiet]:
+    """What is left on pressurised holds, and between sweeps and their repeats.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    residuals
+        Of every block. [SI]
+    indices
+        Blocks of one signal.
+    """
+    top = problem.highest.get(Signal.PRESSURE, 0.0)
+    found: list[Quiet] = []
+    for i in indices:
+        course = problem.courses[problem.blocks[i].course]
+        time = problem.times[i]
+        if not _holds(course, top) or np.ptp(time) < LONG_ENOUGH:
+            continue
+        if float(np.nanmean(course.level("pressure"))) >= VENTED * top:
+            found.append(hold(time, residuals[i], creeps=True))
+    found += _repeats(problem, residuals, indices)
+    return found
+
+
+def _holds(course: Course, top: float) -> bool:
+    pressure = course.level("pressure")
+    if not (np.isfinite(pressure).all() and top > 0):
+        return False
+    still = not course.direction.any()
+    return bool(still and np.ptp(pressure) < HELD * top)
+
+
+def _repeats(
+    problem: Problem, residuals: list[Array], indices: list[int]
+) -> list[Quiet]:
+    """Differences of sweeps that ask the same of the rig, the first pair of each."""
+    found: list[Quiet] = []
+    taken: set[int] = set()
+    for place, i in enumerate(indices):
+        for j in indices[place + 1 :]:
+            one, other = (problem.courses[problem.blocks[k].course] for k in (i, j))
+            if i in taken or j in taken or not alike(_run(one), _run(other)):
+                continue
+            taken |= {i, j}
+            size = min(residuals[i].size, residuals[j].size)
+            load = problem.measured[i][:size]
+            found.append(
+                repeat(
+                    problem.times[i][:size],
+                    residuals[i][:size],
+                    residuals[j][:size],
+                    load / max(float(np.max(np.abs(load))), 1e-300),
+                )
+            )
+    return found
+
+
+def _run(course: Course) -> Run:
+    return Run(course.run, {**course.measured, "time": course.time}, course.kind)

@@ -1,0 +1,200 @@
+"""What an explanation predicts, stage by stage, from measured inputs.
+
+Each stage starts from what was measured before it, so an error upstream does not
+smear: current to pressure; pressure and contraction to force; contraction to opening;
+force and contraction to grip. A wrong sensor shows in every stage that touches it.
+"""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.travel import leaning
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.runs import Runs
+from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
+from gripperd.model.memory import begin, lag, stop
+from gripperd.model.track import Array, Track
+
+INPUTS: Mapping[Signal, tuple[str, ...]] = {
+    Signal.PRESSURE: ("current", "pressure"),
+    Signal.FORCE: ("pressure", "contraction", "force"),
+    Signal.OPENING: ("contraction", "opening"),
+    Signal.GRIP: ("contraction", "grip"),
+}
+"""Columns a stage needs, with the one it predicts."""
+TURNED = 4e-4
+"""Half the way back, of a muscle inside a mount, over which its friction turns. [-]"""
+
+
+def predictable(course: Course) -> tuple[Signal, ...]:
+    """Signals of which a sweep has the measurement and what it follows from."""
+    return tuple(
+        signal
+        for signal, columns in INPUTS.items()
+        if all(np.isfinite(course.column(name)).any() for name in columns)
+    )
+
+
+def predicted(
+    explanation: Explanation,
+    course: Course,
+    signals: Collection[Signal],
+    track: Runs,
+) -> dict[Signal, Array]:
+    """Readings the explanation expects. [SI].
+
+    Parameters
+    ----------
+    explanation
+        What is thought to act.
+    course
+        The sweep.
+    signals
+        Those wanted, of :func:`predictable`.
+    track
+        What :func:`track_of` gives for them.
+    """
+    return {
+        signal: _read(explanation, signal, _happened(explanation, signal, track), track)
+        for signal in signals
+    }
+
+
+def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
+    """What the chain does. [SI]."""
+    if signal is Signal.FORCE:
+        track = _strained(explanation, track)
+    if signal is Signal.GRIP:
+        track = _leaned(track)
+    value = _START[signal](explanation, track)
+    for effect in explanation.effects:
+        if effect.signal is signal and effect.stage is not Stage.SENSOR:
+            value = _along(effect, value, track)
+    if signal is Signal.PRESSURE and explanation.response > 0:
+        quick = explanation.response
+        value = track.each(
+            lambda one, run: lag(one, run.step, quick, quick, begin()), value
+        )
+    # Neither does a regulator suck, nor do jaws pull at what they hold.
+    bounded = signal in (Signal.PRESSURE, Signal.GRIP)
+    return np.maximum(value, 0.0) if bounded else value
+
+
+def _leaned(track: Runs) -> Runs:
+    """Joints rub the way their load goes: jaws on an object hardly travel."""
+    direction = track.each(lambda load, _: leaning(load), track.force)
+    return replace(track, direction=direction)
+
+
+def _strained(explanation: Explanation, track: Runs) -> Runs:
+    """The muscle inside a mount that stretches is shorter than measured."""
+    pull = np.fmax(track.force, 0.0)
+    hidden = [
+        effect.hidden_contraction(pull)
+        for effect in explanation.effects
+        if acts_in_gripper(effect)
+    ]
+    if not any(np.any(one) for one in hidden):
+        return track
+    stretch = np.asarray(sum(hidden))
+    contraction = track.contraction + stretch
+    rate = track.rate + track.each(_rate, stretch)
+    turned = track.each(_turned, contraction) - track.each(_turned, track.contraction)
+    direction = np.clip(track.direction + turned, -1.0, 1.0)
+    return replace(track, contraction=contraction, rate=rate, direction=direction)
+
+
+def _rate(value: Array, run: Track) -> Array:
+    """How fast a value changes from sample to sample. [1/s]."""
+    return np.gradient(value, run.time) if value.size > 1 else np.zeros_like(value)
+
+
+def _turned(contraction: Array, run: Track) -> Array:
+    """Sign of friction that turns with the way gone, and so with the stretch."""
+    start = contraction[:1] - TURNED * run.direction[:1]
+    return stop(contraction, TURNED, start) / TURNED
+
+
+def _along(effect: Effect, value: Array, track: Runs) -> Array:
+    """Signal with an effect; one that remembers begins anew in each run."""
+    if not effect.rest().size:
+        return effect.along(value, track, effect.rest())
+    return track.each(lambda one, run: effect.along(one, run, effect.rest()), value)
+
+
+def _read(explanation: Explanation, signal: Signal, value: Array, track: Runs) -> Array:
+    """What the sensors say of it. [SI]."""
+    for sensor in explanation.sensors():
+        if sensor.signal is signal:
+            value = _along(sensor, value, track)
+    skew = explanation.skews.get(signal, 0.0)
+    if skew and signal in (Signal.OPENING, Signal.GRIP):
+        value = value - skew * track.each(_rate, value)
+    return value + explanation.zeros.get(signal, 0.0)
+
+
+def _pressure(explanation: Explanation, track: Track) -> Array:
+    return track.command
+
+
+def _force(explanation: Explanation, track: Track) -> Array:
+    return track.pressure * track.pull_area
+
+
+def _opening(explanation: Explanation, track: Track) -> Array:
+    linkage, length = explanation.linkage, explanation.muscle.rest_length
+    if linkage is None:
+        return np.full_like(track.time, np.nan)
+    return np.asarray(linkage.opening(track.contraction, length))
+
+
+def _grip(explanation: Explanation, track: Track) -> Array:
+    linkage, length = explanation.linkage, explanation.muscle.rest_length
+    if linkage is None:
+        return np.full_like(track.time, np.nan)
+    return np.asarray(linkage.grip_force(track.force, track.contraction, length))
+
+
+_START: Mapping[Signal, Callable[[Explanation, Track], Array]] = {
+    Signal.PRESSURE: _pressure,
+    Signal.FORCE: _force,
+    Signal.OPENING: _opening,
+    Signal.GRIP: _grip,
+}
+
+
+def passed_on(
+    explanation: Explanation, course: Course, track: Runs, signal: Signal
+) -> Array | float:
+    """What smooth inputs leave out of a prediction: noise, and sharp corners.
+
+    It belongs to the residual as the noise it is. Left inside the prediction, any
+    effect that filters its input would seem to explain it. Where nothing travels, an
+    opening is compared with the contraction reading by reading: a mean is quieter than
+    any way, and no noise would fit both. So is a grip with the force: a smooth force
+    lags where jaws meet and leave an object, as friction in the joints does, and its
+    noise would be as slow as an effect.
+    """
+    if signal is Signal.PRESSURE:
+        return 0.0
+    length = "length" if "length" in course.smooth else "contraction"
+    if signal is Signal.GRIP:
+        track = _leaned(track)
+    sharp = replace(track, contraction=course.level(length))
+    if signal is Signal.OPENING:
+        read = np.where(course.resting, course.column("contraction"), sharp.contraction)
+        sharp = replace(track, contraction=read)
+    if signal is Signal.GRIP:
+        beside = course.column("force") - course.level("force")
+        sharp = replace(sharp, force=track.force + beside)
+    rough = [_START[signal](explanation, one) for one in (sharp, track)]
+    for effect in explanation.effects:
+        if effect.signal is signal and not effect.rest().size:
+            rough = [
+                effect.along(value, one, effect.rest())
+                for value, one in zip(rough, (sharp, track), strict=True)
+            ]
+    return np.nan_to_num(rough[0] - rough[1])

@@ -1,0 +1,107 @@
+"""What happened in a sweep, as an explanation has it."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.residuals.explanation import AtRest, Explanation
+from gripperd.diagnose.residuals.runs import Runs
+from gripperd.model.effect import SensorEffect, Signal
+from gripperd.model.track import Array
+
+
+def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
+    """What happened, as the explanation has it: sensor errors undone.
+
+    Parameters
+    ----------
+    explanation
+        What is thought to act.
+    course
+        A sweep, or several end to end.
+    places
+        Of each of them in the recording.
+    """
+    regulator = explanation.regulator
+    span = (
+        (regulator.pressure_low, regulator.pressure_high) if regulator else (0.0, 1.0)
+    )
+    command = np.full_like(course.time, np.nan)
+    zeros = explanation.zeros
+    if regulator is not None:
+        span = (regulator.pressure_low, regulator.pressure_high)
+        command = np.clip(regulator.pressure(course.column("current")), *span)
+    rough = Runs(
+        muscle=explanation.muscle,
+        time=course.time - course.start,
+        step=course.step,
+        command=command,
+        span=span,
+        still=course.still,
+        pressure=_pressure_at(explanation, course),
+        contraction=_contraction(explanation, course),
+        rate=course.rate("contraction"),
+        direction=directions(explanation, course, *places),
+        force=course.level("force") - zeros.get(Signal.FORCE, 0.0),
+        grip=course.level("grip"),
+        temperature=course.level("temperature"),
+        supply=course.column("supply"),
+        ambient=course.column("ambient"),
+        cycle=course.cycle,
+        repeat=course.repeat,
+        slices=course.slices,
+    )
+    sensors = explanation.sensors()
+    if not sensors:
+        return rough
+    readings = {
+        Signal.PRESSURE: rough.pressure,
+        Signal.CONTRACTION: rough.contraction,
+        Signal.FORCE: rough.force,
+        Signal.GRIP: rough.grip,
+    }
+    for sensor in reversed(sensors):
+        if sensor.signal in readings:
+            readings[sensor.signal] = _truth(sensor, readings[sensor.signal], rough)
+    return replace(
+        rough,
+        pressure=readings[Signal.PRESSURE],
+        contraction=readings[Signal.CONTRACTION],
+        force=readings[Signal.FORCE],
+        grip=readings[Signal.GRIP],
+    )
+
+
+def _truth(sensor: SensorEffect, reading: Array, track: Runs) -> Array:
+    if not sensor.rest().size:
+        return sensor.truth(reading, track)
+    return track.each(sensor.truth, reading)
+
+
+def _pressure_at(explanation: Explanation, course: Course) -> Array:
+    """Pressure at the time of the force sample. [Pa]."""
+    read = course.level("pressure") - explanation.zeros.get(Signal.PRESSURE, 0.0)
+    skew = explanation.skews.get(Signal.PRESSURE, 0.0)
+    return read - skew * course.rate("pressure") if skew else read
+
+
+def _contraction(explanation: Explanation, course: Course) -> Array:
+    """Contraction that refers to the rest length of the explanation. [-]."""
+    skew = explanation.skews.get(Signal.CONTRACTION, 0.0)
+    read = course.level("contraction")
+    read = read - explanation.zeros.get(Signal.CONTRACTION, 0.0)
+    read = read - skew * course.rate("contraction")
+    if explanation.told_length is None:
+        return read
+    return 1 - (1 - read) * explanation.told_length / explanation.muscle.rest_length
+
+
+def directions(explanation: Explanation, course: Course, *places: int) -> Array:
+    """Direction of travel; before there was any, what is assumed of it. [-1..1]."""
+    sign, known = np.ones_like(course.time), course.direction
+    for piece, place in zip(course.slices, places, strict=True):
+        sign[piece] = explanation.rests.get(place, 1.0)
+    if explanation.at_rest is AtRest.INFLATING:
+        known = np.where(course.resting, course.inflating, known)
+    return np.where(known == 0, sign, known)

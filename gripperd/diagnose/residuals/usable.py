@@ -1,0 +1,151 @@
+"""Samples of a sweep that say something about a stage."""
+
+from itertools import pairwise
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from gripperd.diagnose.readings.course import Course, is_table
+from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.travel import STUCK, TRAVEL, leaning, noticed, travel
+from gripperd.diagnose.residuals.stages import INPUTS
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+TRANSIENT = 0.06
+"""A command that moves by more than this share of the span in one sample is a step."""
+
+NEIGHBOURS = 5
+OFF = 3.0
+"""Standard deviations of a mean of neighbours from which a smooth column is off. [-]"""
+
+CORNER = 0.001
+"""Share of the largest reading up to which a cut corner does not matter: the error
+of good pressure transmitters. [-]"""
+
+PRESSED = 5.0
+"""Standard deviations of its noise from which a grip is one. [-]"""
+
+LOOSE = 0.98
+"""Sign of friction from which joints that stuck have come loose. [-]"""
+
+
+def usable(course: Course, signal: Signal, noise: float) -> Mask:
+    """Samples of a signal that say something about its stage.
+
+    Parameters
+    ----------
+    course
+        The sweep.
+    signal
+        What is predicted.
+    noise
+        One sigma of it, as a mean of many samples has it. [SI]
+    """
+    measured = course.column(signal.value)
+    good = np.isfinite(measured)
+    for name in INPUTS[signal]:
+        good &= np.isfinite(course.level(name))
+    if signal is Signal.GRIP:
+        # Without contact the jaws are moved by the muscle alone and press on nothing.
+        good &= (measured > PRESSED * noise) & np.isfinite(course.column("force"))
+        good &= ~_turning(leaning(course.level("force")))
+    sweeps = "pressure" in course.smooth and not is_table((course,))
+    if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):
+        good &= ~_transients(course)
+    if signal is Signal.FORCE:
+        good &= ~_reversals(course) & ~_missed(course, "pressure")
+    if sweeps and signal is Signal.FORCE:
+        good &= ~_stuck(course)
+    return good
+
+
+def _missed(course: Course, name: str) -> Mask:
+    """Samples next to a corner that the smooth column cuts.
+
+    There the neighbours lie off to one side, which their noise alone does not.
+    """
+    known = course.smooth.get(name)
+    if known is None or known.variance <= 0:
+        return np.zeros(len(course), dtype=bool)
+    off = np.nan_to_num(course.column(name) - known.value)
+    mean = uniform_filter1d(off, NEIGHBOURS, mode="nearest")
+    sure = OFF * (known.variance / NEIGHBOURS) ** 0.5
+    least = CORNER * float(np.max(np.abs(known.value)))
+    return _widened(np.abs(mean) > max(sure, least), 2)
+
+
+def _turning(sign: Array) -> Mask:
+    """Samples while friction turns round: which way the joints rub is not known."""
+    loose = np.flatnonzero(np.abs(sign) > LOOSE)
+    if not loose.size:
+        return np.zeros(sign.size, dtype=bool)
+    index = np.arange(sign.size)
+    after = np.minimum(np.searchsorted(loose, index), loose.size - 1)
+    before = np.maximum(np.searchsorted(loose, index, side="right") - 1, 0)
+    turning = np.sign(sign[loose[before]]) != np.sign(sign[loose[after]])
+    return _widened(turning | (index < loose[0]), 2)
+
+
+def _reversals(course: Course) -> Mask:
+    """Samples next to a reversal: which side of it they lie on is not known.
+
+    As many before it as after it, until the way back is seen to have begun.
+    """
+    sign, way = course.direction, course.level("contraction")
+    turned = np.diff(sign, prepend=sign[0]) != 0
+    near, seen = _widened(turned, 2), noticed(course.hush("contraction"))
+    ends = [*np.flatnonzero(turned).tolist(), sign.size]
+    start = 0
+    for place, end in pairwise(ends):
+        came = sign[place - 1]
+        furthest = np.max(came * way[start:place])
+        reach = int(np.argmax(furthest - came * way[place:end] > seen))
+        near[max(place - reach, 0) : place + reach] = True
+        start = place
+    return near
+
+
+def _stuck(course: Course) -> Mask:
+    """Samples in which jaws hold on and do not follow a pressure that has turned.
+
+    The muscle goes by less than is measured, or sticks: until its contraction has
+    followed, its friction lies anywhere between the two directions.
+    """
+    stuck = np.zeros(len(course), dtype=bool)
+    grip, pressure = course.level("grip"), course.level("pressure")
+    if not (np.isfinite(grip).any() and np.isfinite(pressure).all()):
+        return stuck
+    grip = np.nan_to_num(grip - np.nanmin(grip))
+    holds = (grip > PRESSED * course.hush("grip")) & (grip > 0)
+    least = STUCK * float(np.ptp(pressure))
+    sign, way = travel(pressure, least), course.level("contraction")
+    ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
+    for start, end in ends.reshape(-1, 2).tolist():
+        inside = sign[start:end]
+        turns = start + 1 + np.flatnonzero(inside[1:] * inside[:-1] < 0)
+        for turn, after in pairwise([*turns.tolist(), end]):
+            gone = sign[turn] * (way[turn:after] - way[turn])
+            stuck[turn:after] = ~np.logical_or.accumulate(gone > TRAVEL)
+    return _widened(stuck, 2)
+
+
+def _widened(near: Mask, reach: int) -> Mask:
+    wide = near.copy()
+    for shift in range(1, reach + 1):
+        wide[shift:] |= near[:-shift]
+        wide[:-shift] |= near[shift:]
+    return wide
+
+
+def _transients(course: Course) -> Mask:
+    """Samples next to a step of pressure: two sensors never see it at once."""
+    pressure = course.level("pressure")
+    jump = np.abs(np.diff(pressure, prepend=pressure[0]))
+    top = max(float(np.nanmax(np.abs(pressure))), 1.0)
+    near = jump > TRANSIENT * top
+    current = course.column("current")
+    if np.isfinite(current).all():
+        step = np.abs(np.diff(current, prepend=current[0]))
+        near |= step > TRANSIENT * float(np.max(np.abs(current)))
+    return _widened(near, 2)

@@ -1,0 +1,242 @@
+"""What goes on after a step, far below what a model misses, and what explains it."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.design import Member, design
+from gripperd.diagnose.fit.polish import Polished, polished
+from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.temperature import cooled
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.answer import answered, answering
+from gripperd.diagnose.search.dwell import dwelling, misfit, stilled
+from gripperd.diagnose.search.finalists import leaders
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.price import LEAST_MORE, MUCH, is_fault
+from gripperd.diagnose.search.rivalry import SURE, Contest, removed
+from gripperd.model.effect import Signal
+
+NEXT = 2
+"""Effects of another kind that are fitted in full."""
+FORMS = 4
+"""Forms of one cause that are: between a dead time and a lag lies a ridge."""
+
+
+class Aftermath(NamedTuple):
+    """What a signal does after a step, and what may explain it."""
+
+    signal: Signal
+    causes: frozenset[str]
+    within: Callable[[Problem, Point, Noise], Problem]
+    """Gives the problem with the stretches in which it shows."""
+    explained: Callable[[Problem, Polished, Polished], bool]
+    """Whether enough of it is gone from one fit to the next."""
+
+
+AFTERMATHS = (
+    Aftermath(
+        Signal.FORCE, frozenset({"creep", "force_sensor_drift"}), dwelling, stilled
+    ),
+    Aftermath(
+        Signal.PRESSURE, frozenset({"valve_lag", "channel_delay"}), answering, answered
+    ),
+)
+
+
+def with_aftermath(
+    found: Found,
+    best: Contest,
+    listed: Sequence[Candidate],
+    noises: Mapping[Signal, Noise],
+) -> tuple[Found, Contest]:
+    """Add the effects by which pressure and force go on changing after a step.
+
+    Far above the noise the search does not hear them: they are small beside the level
+    that the model misses. But that level stays while the command rests. An effect
+    that takes much of what the levels are off goes before it, and is told only with it.
+    What was told before and is idle beside them is told no more.
+
+    Parameters
+    ----------
+    found, best
+        The search and its outcome.
+    listed
+        What could be missing.
+    noises
+        Of each signal, as identified. [SI]
+    """
+    for kind in AFTERMATHS:
+        found, best = _with(kind, found, best, listed, noises)
+    return found, best
+
+
+def _with(
+    kind: Aftermath,
+    found: Found,
+    best: Contest,
+    listed: Sequence[Candidate],
+    noises: Mapping[Signal, Noise],
+) -> tuple[Found, Contest]:
+    here = best.best
+    if found.problem.temperature([kind.signal]) <= 1 or not here.candidates:
+        return found, best
+    if any(_is_cause(kind, one) for one in here.candidates):
+        return found, best
+    point = here.fit.point
+    # Tolerances that are too tight are one finding, of which nothing can be dropped.
+    if point.looser:
+        return found, best
+    cool = cooled(found.problem, here.fit)
+    problem = kind.within(cool, point, noises[kind.signal])
+    if problem is cool:
+        return found, best
+    here = Rival(here.candidates, polished(problem, point))
+    tried = [here]
+    lasting, others = _grown(kind, problem, here, listed)
+    # Once: two names in all are as many as a measured muscle has needed.
+    if others and _takes_its_share(kind, problem, here, others[0]):
+        here = others[0]
+        tried.append(here)
+        lasting, others = _grown(kind, problem, here, listed)
+    going = [rival for rival in lasting if _accounts(kind, problem, here, rival)]
+    if not going:
+        return found, best
+    # A form that other sweeps foretell goes before one that fits these better.
+    before = here.fit
+    going.sort(key=lambda one: not bears_out(problem, before, one.fit, [kind.signal]))
+    told, without = _needed(problem, going[0], found.threshold)
+    own, *alike = (rival.candidates[-1] for rival in _kinds(going))
+    if own not in told.candidates:
+        return found, best
+    stand_ins = _stand_ins(best) | {own: alike}
+    causes = _kinds((*going, *lasting))
+    rivals = sorted((*tried, *causes, *others), key=lambda rival: -rival.evidence)
+    return (
+        replace(found, problem=problem, best=told, rivals=tuple(rivals)),
+        Contest(
+            told,
+            without,
+            tuple(
+                tuple(_weighed(problem, told, place, stand_ins.get(one, [])))
+                for place, one in enumerate(told.candidates)
+            ),
+        ),
+    )
+
+
+def _grown(
+    kind: Aftermath, problem: Problem, here: Rival, listed: Sequence[Candidate]
+) -> tuple[list[Rival], list[Rival]]:
+    """Give it with each cause that it lacks, and with the leading others."""
+    around = design(problem, here.fit.point, listed)
+    evidence = {one: around.fit(one).evidence for one in around.members}
+    ranked = sorted(evidence, key=lambda one: -evidence[one])
+    causes: dict[tuple[str, ...], list[Member]] = {}
+    for one in ranked:
+        if _is_cause(kind, one.candidate):
+            causes.setdefault(one.candidate.kind, []).append(one)
+    forms = [one for own in causes.values() for one in own[:FORMS]]
+    others = [one for one in leaders(evidence) if not _is_cause(kind, one.candidate)]
+    return _fitted(problem, here, forms), _fitted(problem, here, others[:NEXT])
+
+
+def _kinds(rivals: Iterable[Rival]) -> list[Rival]:
+    """Give the first form of each cause: its other forms are no rivals of it."""
+    found: dict[tuple[str, ...], Rival] = {}
+    for rival in rivals:
+        found.setdefault(rival.candidates[-1].kind, rival)
+    return list(found.values())
+
+
+def _is_cause(kind: Aftermath, candidate: Candidate) -> bool:
+    """Whether a candidate may be why the signal goes on changing."""
+    effect = candidate.effect
+    named = candidate.name in kind.causes
+    return named and effect is not None and effect.signal is kind.signal
+
+
+def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival]:
+    """Give it with one more, best first."""
+    found = [
+        Rival(
+            (*here.candidates, one.candidate),
+            polished(problem, added(here.fit.point, one.candidate)),
+        )
+        for one in more
+    ]
+    return sorted(found, key=lambda rival: -rival.evidence)
+
+
+def _accounts(kind: Aftermath, problem: Problem, here: Rival, larger: Rival) -> bool:
+    """Whether the dwells tell a cause, and much of what they do is gone with it.
+
+    One that has but the levels to explain lets the dwells drift as before, or more.
+    """
+    points = here.fit.point, larger.fit.point
+    before, after = (misfit(problem, point, kind.signal) for point in points)
+    if min(0.5 * (before - after), larger.evidence - here.evidence) <= LEAST_MORE:
+        return False
+    explained = kind.explained(problem, here.fit, larger.fit)
+    return explained and is_fault(problem, larger)
+
+
+def _takes_its_share(
+    kind: Aftermath, problem: Problem, here: Rival, larger: Rival
+) -> bool:
+    """Whether an effect takes much of what is left of the signal beside the dwells."""
+    before, after = (
+        one.fit.misfits[kind.signal] - misfit(problem, one.fit.point, kind.signal)
+        for one in (here, larger)
+    )
+    takes_much = before - after > MUCH * before
+    return takes_much and bears_out(problem, here.fit, larger.fit, [kind.signal])
+
+
+def _needed(
+    problem: Problem, told: Rival, threshold: float
+) -> tuple[Rival, tuple[Rival, ...]]:
+    """Drop what is idle beside the rest, and give it without each that is not."""
+    without = tuple(_without(problem, told))
+    while len(told.candidates) > 1:
+        idle = max(without, key=lambda one: one.evidence)
+        if told.evidence - idle.evidence > threshold:
+            break
+        told, without = idle, tuple(_without(problem, idle))
+    return told, without
+
+
+def _without(problem: Problem, told: Rival) -> Iterator[Rival]:
+    """Give it without each of its candidates."""
+    for index, own in enumerate(told.candidates):
+        rest = (*told.candidates[:index], *told.candidates[index + 1 :])
+        point = removed(problem, told.fit.point, own)
+        yield Rival(rest, polished(problem, point))
+
+
+def _stand_ins(best: Contest) -> dict[Candidate, list[Candidate]]:
+    """What fitted as well in the place of each candidate."""
+    return {
+        one: [rival.candidates[place] for rival in rivals]
+        for place, (one, rivals) in enumerate(
+            zip(best.best.candidates, best.rivals, strict=True)
+        )
+    }
+
+
+def _weighed(
+    problem: Problem, told: Rival, place: int, stand_ins: Sequence[Candidate]
+) -> Iterator[Rival]:
+    """Give what fits as well in a place."""
+    bare = removed(problem, told.fit.point, told.candidates[place])
+    for one in stand_ins:
+        if one.name in told.names:
+            continue
+        candidates = (*told.candidates[:place], one, *told.candidates[place + 1 :])
+        rival = Rival(candidates, polished(problem, added(bare, one)))
+        if told.evidence - rival.evidence < SURE:
+            yield rival

@@ -1,0 +1,115 @@
+"""Answers: how the pressure follows each step of the command, about its own level.
+
+Right after a step no two sensors see the same instant, so elsewhere those samples are
+passed over. But a regulator is slow by more than that, and only there does it show.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.fit.polish import Polished
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.block import Block
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.dwell import FEW, SAMPLES, SETTLED, dwells_of, stretches
+from gripperd.diagnose.search.price import PHANTOM
+from gripperd.model.effect import Signal
+
+STEADY = 1e4
+"""Time in which the level of an answer forgets: it stays. [s]"""
+RESPONDS = "response.valve"
+"""Constant by which a regulator is late, as one lag."""
+
+QUICK = 0.025
+"""Least response time that makers state of common regulators: the model has none at
+all, and steps show what is slower. [s]"""
+TRIED = 4
+"""Response times up to that which are tried."""
+
+
+def answering(problem: Problem, point: Point, noise: Noise) -> Problem:
+    """Give the problem with the answers to steps, if there are enough.
+
+    Parameters
+    ----------
+    problem
+        With the noise as loud as the misfit.
+    point
+        The best explanation; what it leaves of the answers tells how loud they are.
+    noise
+        Of the pressure, as identified. [Pa]
+    """
+    answers = tuple(_answers(problem))
+    if len(answers) < FEW:
+        return problem
+    level = problem.noises[Signal.PRESSURE].std
+    loudness = _loudness(replace(problem, dwells=answers), point)
+    own = Noise(max(loudness, noise.std), 0.0, level, STEADY)
+    louder = (answer._replace(noise=own) for answer in answers)
+    return replace(problem, dwells=(*problem.dwells, *louder))
+
+
+def _loudness(problem: Problem, point: Point) -> float:
+    """Root mean square of what an explanation leaves of the answers. [Pa]."""
+    left = np.concatenate(problem.residuals(point)[-len(problem.dwells) :])
+    return float(np.mean(left**2) ** 0.5)
+
+
+def answered(problem: Problem, before: Polished, after: Polished) -> bool:
+    """Whether an explanation closes much that a quick regulator would not.
+
+    All answers have one law of a few numbers; none has to be left out to try it.
+
+    Parameters
+    ----------
+    problem
+        With answers.
+    before, after
+        Without and with a cause of slow answers.
+    """
+    place = [constant.path for constant in problem.constants].index(RESPONDS)
+    slow = problem.constants[place]
+    quick = []
+    for response in np.linspace(0.0, QUICK, TRIED):
+        shifts = before.point.shifts.copy()
+        shifts[place] = (response - slow.nominal) / slow.sigma
+        quick.append(_left(problem, replace(before.point, shifts=shifts)))
+    at_once = quick[0]
+    return min(quick) - _left(problem, after.point) > PHANTOM * at_once
+
+
+def _left(problem: Problem, point: Point) -> float:
+    """Chi² of the answers, with each command from its own row on or from the next.
+
+    A recorder may write a command before or after it is sent.
+    """
+    rows = [0.0, 0.0]
+    residuals = problem.residuals(point)
+    for index in dwells_of(problem, Signal.PRESSURE):
+        expected = problem.measured[index] - residuals[index]
+        for late in (0, 1):
+            told = np.concatenate([expected[:late], expected])[: expected.size]
+            white = problem.white([problem.measured[index] - told], index)
+            rows[late] += float(np.sum(white**2))
+    return min(rows)
+
+
+def _answers(problem: Problem) -> Iterator[Block]:
+    """From the row before each command to a second after it, if it rests so long."""
+    for block in problem.blocks:
+        if block.signal is not Signal.PRESSURE:
+            continue
+        course = problem.courses[block.course]
+        known = np.isfinite(course.column("pressure") + course.column("current"))
+        if problem.kept:
+            known &= problem.kept[block.course]
+        for stretch in stretches(course):
+            if course.still[stretch].max() < SETTLED:
+                continue
+            good = stretch & (course.still < SETTLED)
+            good[:-1] |= good[1:]
+            if known[good].all() and good.sum() >= SAMPLES:
+                yield block._replace(good=good)

@@ -1,0 +1,73 @@
+"""Which explanations are fitted in full: those that a linear fit ranks first."""
+
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+
+from gripperd.diagnose.fit.design import Design, Member
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.price import acts_on
+from gripperd.model.effect import Signal
+
+FINALISTS = 4
+"""Singles, and as many pairs."""
+
+
+def leaders(singles: Mapping[Member, float]) -> list[Member]:
+    """Best form of each kind, best first."""
+    found: dict[tuple[str, ...], Member] = {}
+    for member in sorted(singles, key=lambda one: -singles[one]):
+        found.setdefault(member.candidate.kind, member)
+    return list(found.values())
+
+
+def finalists(
+    problem: Problem, around: Design, singles: Mapping[Member, float], *, thrifty: bool
+) -> list[tuple[Member, ...]]:
+    """Best singles, or all of them, and best pairs by the linear fit.
+
+    Parameters
+    ----------
+    problem, around
+        The recording and the model, and all that is linear around a point of it.
+    singles
+        Gain of each candidate on its own. [nat]
+    thrifty
+        Whether to hear but the best singles.
+    """
+    best = leaders(singles)
+    if not best:
+        return []
+    # A threshold makes the linear rank of some unfair to them: known doubles of the
+    # leader are heard as well.
+    doubles = best[0].candidate.doubles
+    late = [one for one in best[FINALISTS:] if one.candidate.name in doubles]
+    first = heard(problem, [(one,) for one in best], FINALISTS)
+    alone = (
+        [*first, *((one,) for one in late)]
+        if thrifty
+        else [(one,) for one in around.members]
+    )
+    pairs = sorted(combinations(best, 2), key=lambda pair: -around.fit(*pair).evidence)
+    return [*alone, *heard(problem, pairs, FINALISTS)]
+
+
+def heard(
+    problem: Problem, ranked: Sequence[tuple[Member, ...]], most: int
+) -> list[tuple[Member, ...]]:
+    """Give the first few; where misfit counts, the first of each stage as well.
+
+    There one signal may be so loud that no other would have its say.
+    """
+    found = list(ranked[:most])
+    if problem.is_hot:
+        met = {_signals(problem, members) for members in found}
+        for members in ranked[most:]:
+            signals = _signals(problem, members)
+            if signals not in met:
+                met.add(signals)
+                found.append(members)
+    return found
+
+
+def _signals(problem: Problem, members: Sequence[Member]) -> frozenset[Signal]:
+    return frozenset().union(*(acts_on(problem, one.candidate) for one in members))

@@ -1,0 +1,26 @@
+"""What a search found."""
+
+from dataclasses import dataclass
+
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.track import Array
+
+
+@dataclass(frozen=True)
+class Found:
+    """Outcome of the search."""
+
+    problem: Problem
+    null: Rival
+    best: Rival
+    rivals: tuple[Rival, ...]
+    """All that were fitted in full, best first."""
+    threshold: float
+    """Gain that noise alone reaches in one recording of a hundred. [nat]"""
+    gains: dict[str, float]
+    """Gain of each name alone, linear. [nat]"""
+    faint: tuple[str, ...]
+    """Names that leave no trace in this recording."""
+    nulls: Array
+    """Gains in recordings without a discrepancy, shape ``(n,)``. [nat]"""

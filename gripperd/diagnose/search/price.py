@@ -1,0 +1,162 @@
+"""The price of an addition: what a larger explanation must close to be believed."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.fit.bending import bent, forms
+from gripperd.diagnose.fit.candidates import Candidate, is_exact
+from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.response import moves
+from gripperd.model.effect import Signal
+
+PHANTOM = 0.06
+"""An addition that closes less of the first gap than this repairs its shape, and is
+not an effect of its own: no library has the formula of nature. [-]"""
+OWN = 0.5
+"""Share of a gain that no bending of the first effects takes, from which it is that of
+an effect of its own, be it ever so small. [-]"""
+MENDED = 0.05
+"""Share below which it mends a form, be it ever so large. [-]"""
+LEAST_OWN = 100.0
+"""Fall of chi² that bending leaves at least of an effect of its own. [-]"""
+ELSEWHERE = 0.3
+"""Share of a gain from which a signal counts as gaining. [-]"""
+MUCH = 0.4
+"""Share of what is left, far above the noise, that an effect of its own takes. [-]"""
+EXACT = 0.25
+"""Share of :data:`PHANTOM` paid by what has but one form, as the effects before that
+leave nothing to repair or as the one that could repair them. [-]"""
+LEAST_MORE = 25.0
+"""Gain below which a further effect is not believed: the first one was fitted with a
+form of ours. [nat]"""
+SEEN = 0.005
+"""Change of a reading, of full scale, that an effect makes at least in a sweep: common
+sensors drift by 0.2 %. [-]"""
+RAMP = 0.01
+"""The same of a drift in proportion to time: what wanders by 0.2 % (sd) may end root 12
+times that from where it began, and constants take a part of it. [-]"""
+
+
+def worth(
+    problem: Problem, null: Rival, best: Rival, larger: Rival, threshold: float
+) -> bool:
+    """Whether a larger explanation beats one by its price, and by a visible share.
+
+    What the new part closes is held against what was closed in the signals it acts on:
+    elsewhere there is no shape that it could repair.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    null
+        The model with the best constants alone.
+    best, larger
+        The explanation to beat, and one with more in it.
+    threshold
+        Gain that noise alone seldom reaches. [nat]
+    """
+    gain = larger.evidence - best.evidence
+    if gain <= threshold or not is_fault(problem, larger):
+        return False
+    if not best.candidates:
+        return _size(problem, larger, larger.names, problem.signals) >= SEEN
+    new = [one for one in larger.candidates if one.name not in best.names]
+    signals = {signal for one in new for signal in acts_on(problem, one)}
+    hot = problem.temperature(signals) > 1
+    if not hot and gain <= LEAST_MORE:
+        return False
+    if _change(problem, best.fit.point, larger.fit.point) < SEEN:
+        return False
+    further = best.fit.cost - larger.fit.cost
+    # Constants tie the stages together: it may close elsewhere what it sets free here.
+    gained = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
+    signals |= {s for s, gain in gained.items() if gain > ELSEWHERE * further}
+    closed = sum(null.fit.misfits[s] - larger.fit.misfits[s] for s in signals)
+    price = PHANTOM
+    old = [one for one in best.candidates if acts_on(problem, one) & signals]
+    for group in (old, new):
+        price *= EXACT if all(is_exact(one) for one in group) else 1.0
+    paid = further > price * closed
+    if not hot:
+        return _stands_alone(problem, best, larger, paid=paid)
+    # Far above the noise it counts what an addition takes of what was left.
+    takes_much = further > MUCH * sum(best.fit.misfits[s] for s in signals)
+    return (paid or takes_much) and bears_out(problem, best.fit, larger.fit, signals)
+
+
+def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:
+    """Whether an addition mends no form before it: what it closes stays closed.
+
+    One that has not paid its price must keep most of that, and leave but noise. Known
+    to look like one that bends, it must keep most of it as well.
+    """
+    further = best.fit.cost - larger.fit.cost
+    bending = [name for name in forms(best) if name in larger.names]
+    before, after = (bent(problem, one, bending) for one in (best, larger))
+    least = LEAST_OWN if bending else 2 * LEAST_MORE
+    kept = MENDED if paid and not _looks_like(best, larger, bending) else OWN
+    if before - after <= max(least, kept * further):
+        return False
+    return paid or after - larger.fit.samples < (2 * larger.fit.samples) ** 0.5
+
+
+def _looks_like(best: Rival, larger: Rival, bending: Collection[str]) -> bool:
+    """Whether anything new is a known double of what bends."""
+    old = [one for one in best.candidates if one.name in bending]
+    new = [one for one in larger.candidates if one.name not in best.names]
+    return any(a.name in b.doubles or b.name in a.doubles for a in old for b in new)
+
+
+def _change(problem: Problem, one: Point, other: Point) -> float:
+    """How far apart two explanations are where they differ most, of full scale."""
+    expected = [problem.expected(problem.explanation(each)) for each in (one, other)]
+    return max(
+        float(np.percentile(np.abs(a - b), 95)) / problem.full_scale[block.signal]
+        for block, a, b in zip(problem.blocks, *expected, strict=True)
+    )
+
+
+def is_fault(problem: Problem, rival: Rival) -> bool:
+    """Tell whether a drift, if there is one, is more than that of a sound sensor."""
+    if "force_sensor_drift" not in rival.names:
+        return True
+    own = Signal.FORCE in problem.signals
+    signals = [Signal.FORCE] if own else problem.signals
+    return _size(problem, rival, ["force_sensor_drift"], signals) >= RAMP
+
+
+def _size(
+    problem: Problem, rival: Rival, names: Sequence[str], signals: Collection[Signal]
+) -> float:
+    """How much some effects change most in some signals, of full scale.
+
+    Everything else is left as it is. Of constants it is infinite.
+    """
+    point = rival.fit.point
+    others = tuple(one for one in point.effects if one.name not in names)
+    if others == point.effects:
+        return np.inf
+    bare = replace(point, effects=others)
+    there, here = (problem.expected(problem.explanation(p)) for p in (point, bare))
+    sizes = [
+        float(np.max(np.abs(a - b))) / problem.full_scale[block.signal]
+        for block, a, b in zip(problem.blocks, there, here, strict=True)
+        if block.signal in signals
+    ]
+    return max(sizes)
+
+
+def acts_on(problem: Problem, candidate: Candidate) -> frozenset[Signal]:
+    """Signals that a candidate changes, of those explained."""
+    if candidate.constant is not None:
+        moved = problem.constants[candidate.constant].moves
+    else:
+        assert candidate.effect is not None
+        moved = moves(candidate.effect) or frozenset(problem.signals)
+    return moved & frozenset(problem.signals)

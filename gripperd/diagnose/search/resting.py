@@ -1,0 +1,55 @@
+"""Sign of dry friction in sweeps without travel: which convention the data support.
+
+At rest the friction of eq. (7) is set-valued, and a rig may have come to rest either
+way. A wrong sign would look like an effect.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.design import design
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Signal
+
+DECIDED = 5.0
+"""By so much another convention must be better. [nat]"""
+TELLING = (
+    "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
+    "threshold_pressure", "force_sensor_bias", "force_sensor_gain",
+)  # fmt: skip
+"""What depends on the sign, or could stand in for it."""
+
+
+def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
+    """Give the problem with the sign at rest that explains most, by evidence."""
+    if not _rests(problem):
+        return problem
+    few = [one for one in listed if one.name in TELLING]
+    best, most = problem, -np.inf
+    for sign in AtRest:
+        tried = replace(problem, model=replace(problem.model, at_rest=sign))
+        start = polished(tried, Point(np.zeros(len(problem.constants)))).point
+        around = design(tried, start, few)
+        evidence = max(
+            [
+                around.fit().evidence,
+                *(around.fit(one).evidence for one in around.members),
+            ]
+        )
+        if evidence > most + DECIDED:
+            best, most = tried, evidence
+    return best
+
+
+def _rests(problem: Problem) -> bool:
+    return any(
+        not problem.courses[block.course].direction.any()
+        for block in problem.blocks
+        if block.signal is Signal.FORCE
+    )

@@ -1,0 +1,154 @@
+"""Who else could it be: each effect of the best explanation against its rivals."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.design import Member, design
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.preference import preferred, strained
+from gripperd.diagnose.search.price import acts_on
+
+EXCHANGES = 2
+CHALLENGERS = 4
+"""Rivals of each effect that are fitted in full."""
+SURE = 2.0
+"""A rival behind by less could be true: a true difference of so much has a standard
+error of root 2 of it, which is as much again. [nat]"""
+EVEN = 0.1
+"""A rival ahead by less has only been fitted a little further, and takes no place: two
+processors round differently. [nat]"""
+MISSHAPED = 0.06
+"""Share of the first gap within which a difference of misfit says only that neither
+formula is that of nature. [-]"""
+
+
+@dataclass(frozen=True)
+class Contest:
+    """The best explanation after every exchange, and who could stand in for whom."""
+
+    best: Rival
+    without: tuple[Rival, ...]
+    """For each candidate of the best, the best without it."""
+    rivals: tuple[tuple[Rival, ...], ...]
+    """For each candidate of the best, those that fit as well without it."""
+
+    @property
+    def equivalents(self) -> tuple[tuple[str, ...], ...]:
+        """For each candidate of the best, the names that fit as well."""
+        return tuple(
+            tuple(rival.candidates[index].name for rival in rivals)
+            for index, rivals in enumerate(self.rivals)
+        )
+
+
+def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
+    """Let rivals challenge each effect in turn; a better one takes its place."""
+    best = found.best
+    challenged = _all_challenged(found.problem, best, listed)
+    for _ in range(EXCHANGES):
+        rivals = [rival for _, rivals in challenged for rival in rivals]
+        champion = preferred(found.problem, rivals) if rivals else best
+        if champion.evidence <= best.evidence + EVEN:
+            break
+        if found.problem.is_hot and not _sounder(found.problem, best, champion):
+            break
+        best = champion
+        challenged = _all_challenged(found.problem, best, listed)
+    while len(best.candidates) > 1:
+        idle = max((without for without, _ in challenged), key=lambda one: one.evidence)
+        if best.evidence - idle.evidence > found.threshold:
+            break
+        best = idle
+        challenged = _all_challenged(found.problem, best, listed)
+    closed = found.null.fit.cost - best.fit.cost
+    margin = _margin(best, closed)
+    return Contest(
+        best,
+        tuple(without for without, _ in challenged),
+        tuple(
+            tuple(
+                rival
+                for rival in sorted(rivals, key=lambda one: -one.evidence)
+                if best.evidence - rival.evidence < margin
+                and _stands_in(found.problem, best, index, rival, margin)
+            )
+            for index, (_, rivals) in enumerate(challenged)
+        ),
+    )
+
+
+def _all_challenged(
+    problem: Problem, best: Rival, listed: Sequence[Candidate]
+) -> list[tuple[Rival, list[Rival]]]:
+    return [
+        _challengers(problem, best, index, listed)
+        for index in range(len(best.candidates))
+    ]
+
+
+def _margin(best: Rival, closed: float) -> float:
+    return SURE + 0.5 * min(MISSHAPED * closed, max(best.excess, 0.0))
+
+
+def _sounder(problem: Problem, best: Rival, champion: Rival) -> bool:
+    """Whether an exchange is held by no limit, and foretells better what it acts on."""
+    if strained(problem, champion) or preferred(problem, [best, champion]) is best:
+        return False
+    changed = set(best.candidates) ^ set(champion.candidates)
+    signals = {signal for one in changed for signal in acts_on(problem, one)}
+    return bears_out(problem, best.fit, champion.fit, signals)
+
+
+def _stands_in(
+    problem: Problem, best: Rival, index: int, rival: Rival, margin: float
+) -> bool:
+    """Whether a rival explains the same signals, not others as much better."""
+    signals = acts_on(problem, best.candidates[index])
+    lost = sum(rival.fit.misfits[s] - best.fit.misfits[s] for s in signals)
+    return 0.5 * lost < SURE + margin
+
+
+def _challengers(
+    problem: Problem, best: Rival, index: int, listed: Sequence[Candidate]
+) -> tuple[Rival, list[Rival]]:
+    """Give the best without a candidate, and with each of its strongest rivals."""
+    own = best.candidates[index]
+    rest = (*best.candidates[:index], *best.candidates[index + 1 :])
+    without = Rival(rest, polished(problem, removed(problem, best.fit.point, own)))
+    base = without.fit.point
+    taken = set(best.names)
+    around = design(problem, base, [one for one in listed if one.name not in taken])
+    leaders: dict[str, tuple[float, Member]] = {}
+    for member in around.members:
+        evidence = around.fit(member).evidence
+        name = member.candidate.name
+        if name not in leaders or evidence > leaders[name][0]:
+            leaders[name] = evidence, member
+    strongest = sorted(leaders.values(), key=lambda one: -one[0])[:CHALLENGERS]
+    return without, [
+        Rival(
+            (*rest[:index], member.candidate, *rest[index:]),
+            polished(problem, added(base, member.candidate)),
+        )
+        for _, member in strongest
+    ]
+
+
+def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
+    """Take a candidate out at a point."""
+    if candidate.effect is not None:
+        return point.without(candidate.name)
+    assert candidate.constant is not None
+    held = replace(point, freed=point.freed - {candidate.constant})
+    reach = problem.reach(held)
+    return replace(
+        held, shifts=np.clip(held.shifts, -reach * held.widths, reach * held.widths)
+    )

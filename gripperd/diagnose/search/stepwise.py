@@ -1,0 +1,186 @@
+"""Which effects: singles, pairs, then forward and backward, each paid for.
+
+References
+----------
+.. [1] A. J. Miller, "Subset Selection in Regression", 2nd ed., Chapman & Hall, 2002,
+       sections 3.2-3.6: forward, backward and exchange steps.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.design import Member, design
+from gripperd.diagnose.fit.null import null_gains
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.temperature import louder, plain, reached, temperatures_of
+from gripperd.diagnose.readings.course import is_table
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.finalists import finalists, heard, leaders
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.preference import BORE, at_edge, preferred
+from gripperd.diagnose.search.price import worth
+
+FALSE_ALARMS = 0.01
+"""Share of recordings without a discrepancy in which something may be found."""
+LEAST = 20.0
+"""Gain below which no model of a rig is known well enough: odds of 5e8. [nat]"""
+MISFIT = 2.0
+"""Mean square of what the best explanation leaves, from which it is not noise. [-]"""
+HOPELESS = 150.0
+"""The same of the null, from which no explanation can reach the noise. [-]"""
+COOLINGS = 3
+NEXT = 2
+"""Explanations that are fitted in full."""
+MOST = 4
+"""Effects that one recording may add."""
+
+
+def search(
+    problem: Problem, listed: Sequence[Candidate], rng: np.random.Generator
+) -> Found:
+    """Find the explanation that the recording supports best.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    listed
+        What could be missing.
+    rng
+        For the recordings without a discrepancy.
+    """
+    start = Point(np.zeros(len(problem.constants)))
+    null = polished(problem, start)
+    lost = [s for s, share in temperatures_of(null).items() if share > HOPELESS]
+    found = _cooled(plain(problem, lost), listed, rng, null.point)
+    hot = [s for s, share in found.problem.temperatures.items() if share > MISFIT]
+    if set(hot) - set(lost):
+        found = _cooled(plain(problem, [*lost, *hot]), listed, rng, null.point)
+    return _grown(found, listed)
+
+
+def _cooled(
+    problem: Problem,
+    listed: Sequence[Candidate],
+    rng: np.random.Generator,
+    start: Point,
+) -> Found:
+    """Take the noise as loud as the best explanation leaves it, and no louder."""
+    null = polished(problem, start)
+    warm = {s: max(1.0, share) for s, share in temperatures_of(null).items()}
+    found = _pass(louder(problem, warm), listed, rng, null.point)
+    for _ in range(COOLINGS):
+        cooler = reached(warm, (rival.fit for rival in found.rivals))
+        if all(cooler[s] > 0.8 * warm[s] for s in warm):
+            break
+        warm = cooler
+        found = _pass(louder(problem, warm), listed, rng, null.point)
+    return found
+
+
+def _pass(
+    problem: Problem,
+    listed: Sequence[Candidate],
+    rng: np.random.Generator,
+    start: Point,
+) -> Found:
+    null = Rival((), polished(problem, start))
+    around = design(problem, null.fit.point, listed)
+    base = around.fit().evidence
+    singles = {member: around.fit(member).evidence - base for member in around.members}
+    gains = _by_name(singles)
+    nulls = null_gains(around, around.members, rng)
+    # Noise as loud as the misfit holds the doubt about the model already.
+    least = 0.0 if problem.is_hot else LEAST
+    threshold = max(float(np.quantile(nulls, 1 - FALSE_ALARMS)), least)
+    rivals = [null]
+    # What is hot is weighed even so: only a fit tells how loud the rest really is.
+    if problem.is_hot or max(gains.values(), default=0.0) > threshold:
+        # A table has so few samples that every form can be fitted in full.
+        thrifty = not is_table(problem.courses)
+        sets = finalists(problem, around, singles, thrifty=thrifty)
+        rivals += [_fitted(problem, null.fit.point, members) for members in sets]
+        alone = [one for one in rivals if len(one.candidates) == 1] or [null]
+        rivals += _with_bore(problem, preferred(problem, alone), listed)
+    best = _best(problem, null, rivals, threshold)
+    rivals.sort(key=lambda rival: -rival.evidence)
+    return Found(
+        problem, null, best, tuple(rivals), threshold, gains, around.faint, nulls
+    )
+
+
+def _by_name(singles: dict[Member, float]) -> dict[str, float]:
+    gains: dict[str, float] = {}
+    for member, gain in singles.items():
+        name = member.candidate.name
+        gains[name] = max(gains.get(name, 0.0), gain)
+    return gains
+
+
+def _fitted(problem: Problem, start: Point, members: Sequence[Member]) -> Rival:
+    point = start
+    for member in members:
+        point = added(point, member.candidate)
+    return Rival(tuple(m.candidate for m in members), polished(problem, point))
+
+
+def _with_bore(
+    problem: Problem, rival: Rival, listed: Sequence[Candidate]
+) -> list[Rival]:
+    """Give it with another bore, if misfit counts and its tolerance holds that back."""
+    held = BORE in at_edge(problem, rival) and BORE not in rival.names
+    if not (problem.is_hot and held):
+        return []
+    return [
+        Rival((*rival.candidates, one), polished(problem, added(rival.fit.point, one)))
+        for one in listed
+        if one.name == BORE
+    ]
+
+
+def _best(
+    problem: Problem, null: Rival, rivals: Sequence[Rival], threshold: float
+) -> Rival:
+    """The simplest explanation that no larger one beats by its price."""
+    best = null
+    for size in range(1, MOST + 1):
+        of_size = [rival for rival in rivals if len(rival.candidates) == size]
+        if not of_size:
+            continue
+        champion = preferred(problem, of_size)
+        if worth(problem, null, best, champion, threshold):
+            best = champion
+    return best
+
+
+def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
+    """Add one effect at a time for as long as it is worth its price."""
+    problem, best = found.problem, found.best
+    tried: list[Rival] = []
+    while 0 < len(best.candidates) < MOST:
+        around = design(problem, best.fit.point, listed)
+        base = around.fit().evidence
+        singles = {m: around.fit(m).evidence - base for m in around.members}
+        grown = [
+            Rival(
+                (*best.candidates, member.candidate),
+                polished(problem, added(best.fit.point, member.candidate)),
+            )
+            for (member,) in heard(problem, [(m,) for m in leaders(singles)], NEXT)
+            if singles[member] > found.threshold
+        ]
+        grown += _with_bore(problem, best, listed)
+        tried += grown
+        if not grown:
+            break
+        champion = preferred(problem, grown)
+        if not worth(problem, found.null, best, champion, found.threshold):
+            break
+        best = champion
+    rivals = sorted((*found.rivals, *tried), key=lambda rival: -rival.evidence)
+    return replace(found, best=best, rivals=tuple(rivals))

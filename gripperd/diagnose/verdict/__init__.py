@@ -1,0 +1,1 @@
+"""What is said of an explanation: named, where, how much better, what next."""

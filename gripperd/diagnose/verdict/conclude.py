@@ -1,0 +1,114 @@
+"""From an explanation to a verdict."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from gripperd.diagnose.fit.polish import Polished
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.structure import Structure, structures
+from gripperd.model.effect import Signal
+
+STRUCTURED = 1e-4
+"""Chance below which what is left is no noise, over all ways of looking at it."""
+VISIBLE = 0.0015
+"""Structure below this share of full scale is what common sensors drift. [-]"""
+EXPLAINED = 0.72
+"""Share of the structure that a right explanation takes away. [-]"""
+
+
+class Verdict(StrEnum):
+    """What a diagnosis can say."""
+
+    NAMED = "named"
+    NONE = "none"
+    UNEXPLAINED = "unexplained"
+    AMBIGUOUS = "ambiguous"
+    UNUSABLE = "unusable"
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """The verdict and what it rests on."""
+
+    verdict: Verdict
+    left: tuple[Structure, ...]
+    """What is left after the best explanation."""
+    share: float
+    """Share of the structure that the best explanation takes away. [-]"""
+    before: tuple[Structure, ...] = ()
+    """What is left with the best constants alone."""
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """Those in which structure is left."""
+        return tuple(dict.fromkeys(one.signal for one in _remaining(self.left)))
+
+
+def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
+    """Weigh what was found against what is left.
+
+    Parameters
+    ----------
+    problem
+        With the noise as it was identified, not louder.
+    found, contest
+        The search and its outcome.
+    """
+    before = _structured(problem, found.null.fit)
+    after = _structured(problem, contest.best.fit)
+    excess, left = _excess(before), _excess(after)
+    share = 1 - left / excess if excess > 0 else 1.0
+    remains = bool(_remaining(after))
+    if not contest.best.candidates:
+        verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
+    elif remains and share < EXPLAINED:
+        verdict = Verdict.UNEXPLAINED
+    elif any(contest.equivalents):
+        verdict = Verdict.AMBIGUOUS
+    else:
+        verdict = Verdict.NAMED
+    return Conclusion(verdict, after, share, before)
+
+
+def unusable() -> Conclusion:
+    """Give no verdict on a recording that contradicts itself."""
+    return Conclusion(Verdict.UNUSABLE, (), 0.0)
+
+
+def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
+    """Withdraw names that sweeps which took no part do not bear out.
+
+    Parameters
+    ----------
+    conclusion
+        With names.
+    is_open
+        Whether these sweeps are off by more than noise without any name. Where they
+        are not, and no structure is seen either, sensors drift and nothing is missing.
+    """
+    if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
+        return conclusion
+    remains = is_open or bool(_remaining(conclusion.before))
+    verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
+    return replace(conclusion, verdict=verdict)
+
+
+def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:
+    return structures(problem, problem.residuals(fit.point))
+
+
+def _excess(found: Sequence[Structure]) -> float:
+    return float(np.max([max(one.excess, 0.0) for one in found], initial=0.0))
+
+
+def _remaining(found: Sequence[Structure]) -> list[Structure]:
+    return [
+        one
+        for one in found
+        if one.p_value * len(found) < STRUCTURED and one.size > VISIBLE
+    ]

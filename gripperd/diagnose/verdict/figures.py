@@ -1,0 +1,39 @@
+"""Numbers of a diagnosis as a person reads them."""
+
+from math import floor, inf, log10
+
+from gripperd.diagnose.verdict.named import Estimate
+
+DIGITS = 6
+"""Decimal places that no number is told beyond."""
+UNLIKELY = 1e-99
+"""Chance below which its size says nothing any more. [-]"""
+
+
+def fixed(value: float, std: float) -> str:
+    """Write a value no finer than two digits of its standard deviation.
+
+    >>> fixed(18.3142, 0.0937), fixed(0.0937, 0.0937), fixed(224.6, 118.0)
+    ('18.314', '0.094', '220')
+    """
+    if not 0 < std < inf:
+        return f"{value:.4g}"
+    places = min(1 - floor(log10(std)), DIGITS)
+    # Adding 0 turns what would read as -0 into 0.
+    return f"{round(value, places) + 0.0:.{max(places, 0)}f}"
+
+
+def chance(p_value: float) -> str:
+    """Write a p-value: never 0, which no measurement can show.
+
+    >>> chance(3.2e-9), chance(0.0)
+    ('3e-09', '< 1e-99')
+    """
+    return f"< {UNLIKELY:g}" if p_value < UNLIKELY else f"{p_value:.1g}"
+
+
+def stopped(one: Estimate) -> bool:
+    """Whether a bound holds a fitted number: its interval is one-sided then."""
+    near = 1e-6 * (one.high - one.low)
+    ends = min(one.value - one.low, one.high - one.value)
+    return -inf < one.low < one.high < inf and ends <= near

@@ -1,0 +1,143 @@
+"""How far simulation and measurement are apart on what took no part in the fit.
+
+References
+----------
+.. [1] P. Hall, J. L. Horowitz, B.-Y. Jing, "On blocking rules for the bootstrap with
+       dependent data", Biometrika 82(3), 561-574, 1995.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+STRETCH = 40
+"""Samples that are drawn together, longer than the noise remembers."""
+DRAWS = 400
+WORSE = 1.01
+"""Gap over that of better constants alone from which effects do harm. [-]"""
+REACHED = 1.3
+"""Gap over the noise floor up to which nothing more can be asked. [-]"""
+LEAST_CLOSED = 0.45
+"""Share of a gap well above the noise that effects close at least. [-]"""
+CROWD = 2
+"""More effects at once are held to the two limits that follow."""
+CLOSELY, MOST_CLOSED = 1.15, 0.85
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Root mean square of measured minus predicted, of one signal. SI."""
+
+    signal: Signal
+    before: float
+    """With the model as it came."""
+    recalibrated: float
+    """With the best constants alone."""
+    after: float
+    """With the effects."""
+    noise_floor: float
+    """Repeatability of the measurement itself."""
+    ci95_after: tuple[float, float]
+
+    @property
+    def closed(self) -> float:
+        """Share of the mean square above the noise that recalibration left. [-]."""
+        floor = self.noise_floor**2
+        left = self.recalibrated**2 - floor
+        return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
+
+    @property
+    def left_open(self) -> float:
+        """What better constants alone leave, over the noise floor. [-]."""
+        return self.recalibrated / self.noise_floor
+
+    @property
+    def is_open(self) -> bool:
+        """Whether better constants alone leave more than noise."""
+        return self.left_open > REACHED
+
+    def confirms(self, effects: int) -> bool:
+        """Whether what took no part bears so many effects out.
+
+        A crowd of effects can imitate one that no library holds, but not closely. What
+        is worse by no more than chance, where little was left to close, says nothing.
+        """
+        if self.ci95_after[0] > WORSE * max(self.recalibrated, self.noise_floor):
+            return False
+        crowd = effects > CROWD
+        reached = self.after <= (CLOSELY if crowd else REACHED) * self.noise_floor
+        return reached or self.closed >= (MOST_CLOSED if crowd else LEAST_CLOSED)
+
+
+def gaps(
+    test: Problem,
+    points: Sequence[Point],
+    noises: Mapping[Signal, Noise],
+    rng: np.random.Generator,
+) -> dict[Signal, Gap]:
+    """Judge three points by what none of them was fitted to.
+
+    Parameters
+    ----------
+    test
+        The sweeps that were left out.
+    points
+        The model as it came, with the best constants, and with the effects.
+    noises
+        Of each signal.
+    rng
+        For the interval.
+    """
+    before, recalibrated, after = (by_signal(test, point) for point in points)
+    return {
+        signal: Gap(
+            signal,
+            _rms(before[signal]),
+            _rms(recalibrated[signal]),
+            _rms(after[signal]),
+            noises[signal].floor,
+            _interval(after[signal], rng),
+        )
+        for signal in after
+    }
+
+
+def with_usual_sign(train: Problem, point: Point) -> Point:
+    """Give sweeps that were left out the mean sign of friction of those that were not.
+
+    How the rig came to rest in them is as unknown as in the others, and not fitted.
+    """
+    fitted = {block.course for block in train.blocks}
+    own = [(i, c.course) for i, c in enumerate(train.constants) if c.course is not None]
+    known = [point.shifts[i] for i, course in own if course in fitted]
+    unknown = [i for i, course in own if course not in fitted]
+    shifts = point.shifts.copy()
+    shifts[unknown] = float(np.mean(known)) if known else 0.0
+    return replace(point, shifts=shifts)
+
+
+def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:
+    """Residuals of each signal, in order of time. [SI]."""
+    found: dict[Signal, list[Array]] = {}
+    for block, residual in zip(problem.blocks, problem.residuals(point), strict=True):
+        found.setdefault(block.signal, []).append(residual)
+    return {signal: np.concatenate(pieces) for signal, pieces in found.items()}
+
+
+def _rms(residual: Array) -> float:
+    return float(np.sqrt(np.mean(residual**2)))
+
+
+def _interval(residual: Array, rng: np.random.Generator) -> tuple[float, float]:
+    count = max(residual.size // STRETCH, 1)
+    means = np.array([np.mean(piece**2) for piece in np.array_split(residual, count)])
+    drawn = means[rng.integers(0, count, (DRAWS, count))].mean(1)
+    low, high = np.sqrt(np.quantile(drawn, (0.025, 0.975)))
+    return float(low), float(high)

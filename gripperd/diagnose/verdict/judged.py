@@ -1,0 +1,38 @@
+"""Which of the signals that were left out the story is about, and which bear it out."""
+
+from collections.abc import Mapping
+
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.price import acts_on
+from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.gap import Gap
+from gripperd.model.effect import Signal, Stage
+
+
+def main_signal(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
+    """Give the signal of the first effect, else the one recalibration leaves worst.
+
+    A sensor that errs shows in every stage that it touches, in one most. Without any
+    effect the story is about the force.
+    """
+    effects = [one.effect for one in best.best.candidates if one.effect]
+    for effect in effects:
+        if effect.stage is not Stage.SENSOR and effect.signal in judged:
+            return effect.signal
+    if Signal.FORCE in judged and not effects:
+        return Signal.FORCE
+    return max(judged, key=lambda one: judged[one].left_open, default=None)
+
+
+def bearing_signal(
+    problem: Problem, best: Contest, main: Signal | None, judged: Mapping[Signal, Gap]
+) -> Signal | None:
+    """Give the signal that bears names out: what none of them touches says nothing."""
+    candidates = best.best.candidates
+    if not candidates:
+        return main
+    touched = {signal for one in candidates for signal in acts_on(problem, one)}
+    heard = [signal for signal in judged if signal in touched]
+    if main in heard:
+        return main
+    return max(heard, key=lambda one: judged[one].left_open, default=None)

@@ -1,0 +1,58 @@
+"""What nobody could name, in words: what it depends on and what it does not."""
+
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.conclude import Conclusion
+from gripperd.diagnose.verdict.jump import Jump
+from gripperd.diagnose.verdict.key import plain
+from gripperd.diagnose.verdict.structure import Structure
+from gripperd.model.effect import Signal
+
+CLEAR = 1e-6
+"""Chance below which a dependence is told."""
+LINE = 0.5
+"""Share of one wave from which a dependence is called periodic. [-]"""
+
+
+def signature(
+    problem: Problem, best: Contest, conclusion: Conclusion, slip: Jump | None = None
+) -> tuple[str, ...]:
+    """Describe what is left, most telling first."""
+    words = [f"share of the gap that known effects explain: {conclusion.share:.0%}"]
+    if best.best.names:
+        nearest = ", ".join(map(plain, best.best.names))
+        words.append(f"nearest known effects: {nearest}")
+    if slip:
+        # By the clock of the file, as everything else that is told of it.
+        at = problem.courses[0].start + slip.at
+        words.append(f"force: jumps by {slip.size:+.1f} N at {at:.0f} s, and stays")
+    for signal in problem.signals:
+        views = [one for one in conclusion.left if one.signal is signal]
+        words += _told(signal.value, views)
+    return tuple(words)
+
+
+def _told(signal: str, views: list[Structure]) -> list[str]:
+    clear = [one for one in views if one.p_value < CLEAR]
+    if not clear:
+        return []
+    words = [
+        f"{signal}: depends on {_spelt(one)}"
+        + (", as one wave" if one.share > LINE else "")
+        for one in clear
+    ]
+    plain = {one.along for one in clear}
+    words += [
+        f"{signal}: not on {_spelt(one)}"
+        for one in views
+        if one.p_value > 0.01 and one.along not in plain and "Hz" not in one.along
+    ]
+    return words
+
+
+def _spelt(view: Structure) -> str:
+    """What a person calls a way of looking at it."""
+    if view.along == "cells":
+        first = "current" if view.signal is Signal.PRESSURE else "pressure"
+        return f"{first} and contraction together"
+    return view.along.replace(" x direction", " times the direction of travel")

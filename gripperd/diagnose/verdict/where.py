@@ -1,0 +1,156 @@
+"""Where simulation and measurement disagree: runs, regions, size and significance.
+
+References
+----------
+.. [1] S. Holm, "A simple sequentially rejective multiple test procedure", Scand. J.
+       Statist. 6(2), 65-70, 1979.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import erfc
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.residuals.block import Block
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+PIECES = 8
+"""Stretches into which a sweep is cut."""
+LEVEL = 0.01
+"""Chance of any false finding in a whole recording."""
+STAGES: Mapping[Signal, str] = {
+    Signal.PRESSURE: "valve",
+    Signal.FORCE: "muscle",
+    Signal.OPENING: "gripper",
+    Signal.GRIP: "gripper",
+}
+LIMITS = ("pressure", "contraction", "temperature")
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A stretch of one sweep in which the model is off."""
+
+    stage: str
+    signal: Signal
+    run: str
+    region: Mapping[str, tuple[float, float]]
+    """Lowest and highest of time, pressure, contraction, direction... [SI]"""
+    bias: float
+    """Measured minus predicted, mean. [SI]"""
+    std: float
+    """Standard error of the bias. [SI]"""
+    p_value: float
+    """Corrected for how many stretches were looked at."""
+
+
+def findings(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...]:
+    """Name the stretches in which residuals are no noise, largest bias first.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    residuals
+        Measured minus predicted of the recalibrated model, block by block. [SI]
+    """
+    cells = [
+        cell
+        for block, residual in zip(problem.blocks, residuals, strict=True)
+        for cell in _cells(problem, block, residual)
+    ]
+    order = np.argsort([cell.p_value for cell in cells])
+    kept: list[Finding] = []
+    worst = 0.0
+    for rank, place in enumerate(order):
+        cell = cells[place]
+        worst = max(worst, min(1.0, cell.p_value * (len(cells) - rank)))
+        if worst > LEVEL:
+            break
+        kept.append(_with_p(cell, worst))
+    joined = _joined(kept)
+    scale = problem.full_scale
+    return tuple(sorted(joined, key=lambda one: -abs(one.bias) / scale[one.signal]))
+
+
+def _cells(problem: Problem, block: Block, residual: Array) -> Iterator[Finding]:
+    course = problem.courses[block.course]
+    noise = problem.noises[block.signal]
+    chosen = np.flatnonzero(block.good)
+    for piece in np.array_split(np.arange(residual.size), PIECES):
+        if piece.size < 4:
+            continue
+        slow = noise.slow_variance / piece.size + noise.drift**2
+        std = float(np.sqrt(slow))
+        bias = float(np.mean(residual[piece]))
+        p_value = float(erfc(abs(bias) / std / 2**0.5))
+        yield Finding(
+            STAGES[block.signal], block.signal, course.run,
+            _region(course, chosen[piece]), bias, std, p_value,
+        )  # fmt: skip
+
+
+def _region(
+    course: Course, samples: NDArray[np.intp]
+) -> dict[str, tuple[float, float]]:
+    region = {"time": _ends(course.time[samples])}
+    for name in LIMITS:
+        column = course.level(name)[samples]
+        if np.isfinite(column).any():
+            region[name] = _ends(column)
+    region["direction"] = _ends(course.direction[samples])
+    return region
+
+
+def _ends(column: Array) -> tuple[float, float]:
+    return float(np.nanmin(column)), float(np.nanmax(column))
+
+
+def _with_p(cell: Finding, p_value: float) -> Finding:
+    return Finding(
+        cell.stage, cell.signal, cell.run, cell.region, cell.bias, cell.std, p_value
+    )
+
+
+def _joined(kept: Sequence[Finding]) -> list[Finding]:
+    """Neighbouring stretches of one run that are off the same way become one."""
+    out: list[Finding] = []
+    for cell in sorted(kept, key=lambda one: (one.run, one.signal, one.region["time"])):
+        last = out[-1] if out else None
+        if (
+            last is not None
+            and (last.run, last.signal) == (cell.run, cell.signal)
+            and last.bias * cell.bias > 0
+            and _adjoin(last, cell)
+        ):
+            out[-1] = _union(last, cell)
+        else:
+            out.append(cell)
+    return out
+
+
+def _adjoin(one: Finding, next_one: Finding) -> bool:
+    start, end = next_one.region["time"]
+    return start - one.region["time"][1] < 0.5 * (end - start)
+
+
+def _union(one: Finding, other: Finding) -> Finding:
+    widths = [f.region["time"][1] - f.region["time"][0] + 1e-9 for f in (one, other)]
+    bias = float(np.average([one.bias, other.bias], weights=widths))
+    region = {
+        name: (
+            min(one.region[name][0], other.region[name][0]),
+            max(one.region[name][1], other.region[name][1]),
+        )
+        for name in one.region
+        if name in other.region
+    }
+    return Finding(
+        one.stage, one.signal, one.run, region, bias,
+        min(one.std, other.std), min(one.p_value, other.p_value),
+    )  # fmt: skip

@@ -1,0 +1,165 @@
+from dataclasses import replace
+
+import pytest
+
+from gripperd.diagnose.fit.candidates import (
+    Candidate,
+    amplitudes,
+    candidates,
+    forms,
+    is_exact,
+)
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects import EFFECTS
+from gripperd.effects.channel_delay import ChannelDelay
+from gripperd.effects.creep import Creep
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.model.effect import Signal, Stage
+from gripperd.model.parameter import parameters
+from tests.diagnose.small import MODEL, recording, without
+
+MEASURED = frozenset({"time", "current", "pressure", "contraction", "force"})
+
+
+def _names(listed: tuple[Candidate, ...]) -> set[str]:
+    return {one.name for one in listed}
+
+
+def test_everything_is_either_a_candidate_or_unseen_or_in_the_model(
+    blank: Problem,
+) -> None:
+    listed, unseen = candidates(EFFECTS, blank, MEASURED)
+    present = {effect.name for effect in MODEL.effects}
+    effects = {one.name for one in listed if one.effect}
+    assert effects | set(unseen) | present == set(EFFECTS)
+    assert not effects & set(unseen)
+    assert not present & (effects | set(unseen))
+
+
+def test_what_needs_a_column_that_is_missing_says_which(blank: Problem) -> None:
+    listed, unseen = candidates(EFFECTS, blank, MEASURED)
+    assert "temperature_stiffness" not in _names(listed)
+    assert unseen["temperature_stiffness"] == "temperature not measured"
+
+
+@pytest.mark.parametrize(
+    ("further", "basis"),
+    [
+        ("nonlinear_elasticity", "rubber_elasticity"),
+        ("pressure_friction", "braid_friction"),
+    ],
+)
+def test_where_the_model_lacks_the_textbook_nothing_departs_from_it(
+    blank: Problem, further: str, basis: str
+) -> None:
+    bare = replace(blank, model=replace(MODEL, effects=()))
+    listed, unseen = candidates(EFFECTS, bare, MEASURED)
+    assert basis in _names(listed)
+    assert unseen[further] == f"{basis} is not in the model"
+    assert further in _names(candidates(EFFECTS, blank, MEASURED)[0])
+
+
+def test_the_valve_is_not_suspected_where_its_pressure_is_not_predicted() -> None:
+    problem = _without_current()
+    listed, _ = candidates(EFFECTS, problem, MEASURED - {"current"})
+    stages = {one.effect.stage for one in listed if one.effect}
+    assert stages == {Stage.MUSCLE, Stage.SENSOR, Stage.GRIPPER}
+
+
+def _without_current() -> Problem:
+    return problem_of(without(recording(), "current"), MODEL, {})
+
+
+def test_constants_of_the_model_are_candidates_those_of_the_sensors_are_not(
+    blank: Problem,
+) -> None:
+    listed, _ = candidates({}, blank, MEASURED)
+    names = _names(listed)
+    assert "parameter:muscle.diameter" in names
+    assert "parameter:valve.pressure_high" in names
+    assert {name.partition(".")[0] for name in names} == {
+        "parameter:muscle",
+        "parameter:valve",
+    }
+    for one in listed:
+        assert one.constant is not None
+        assert one.name.endswith(blank.constants[one.constant].path)
+        assert one.stage == "-"
+
+
+def test_an_effect_that_the_model_has_is_no_candidate() -> None:
+    model = replace(MODEL, effects=(*MODEL.effects, ThresholdPressure()))
+    problem = problem_of(recording(), model, {})
+    listed, unseen = candidates(EFFECTS, problem, MEASURED)
+    assert "threshold_pressure" not in _names(listed) | set(unseen)
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_the_forms_of_an_effect_are_all_combinations_of_its_starts(name: str) -> None:
+    known = parameters(EFFECTS[name])
+    wanted = 1
+    for one in known.values():
+        wanted *= len(one.starts or one.choices or (None,))
+    found = forms(EFFECTS[name])
+    assert len(set(found)) == len(found) == wanted
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_every_form_acts_within_its_bounds(name: str) -> None:
+    for form in forms(EFFECTS[name]):
+        for field, one in parameters(form).items():
+            if one.choices:
+                continue
+            value = getattr(form, field)
+            assert one.low <= value <= one.high
+            assert value > 0 or not one.is_amplitude
+
+
+def test_amplitudes_are_what_an_effect_is_proportional_to() -> None:
+    assert amplitudes(Creep()) == ["fast", "medium", "slow"]
+    assert amplitudes(ThresholdPressure()) == ["pressure"]
+
+
+@pytest.mark.parametrize(
+    ("name", "exact"),
+    [
+        ("force_sensor_bias", True),
+        ("pressure_sensor_gain", True),
+        ("force_sensor_drift", True),
+        ("valve_offset", True),
+        ("creep", False),
+        ("threshold_pressure", False),
+        ("coulomb_friction", False),
+    ],
+)
+def test_what_a_sensor_does_has_no_form_but_ours(name: str, exact: bool) -> None:
+    assert is_exact(Candidate(name, forms(EFFECTS[name])[0])) is exact
+
+
+def test_a_constant_has_no_form() -> None:
+    assert not is_exact(Candidate("parameter:muscle.diameter", None, 0))
+
+
+def test_a_constant_that_is_wrong_as_an_effect_shows_is_left_to_the_effect(
+    blank: Problem,
+) -> None:
+    low, high = "parameter:valve.pressure_low", "parameter:valve.pressure_high"
+    for library, names in (
+        ({}, {low, high}),
+        ({"valve_gain": EFFECTS["valve_gain"]}, {low}),
+        ({"valve_offset": EFFECTS["valve_offset"]}, {high}),
+        (EFFECTS, set()),
+    ):
+        listed, _ = candidates(library, blank, MEASURED)
+        assert _names(listed) & {low, high} == names
+
+
+def test_channels_that_are_late_are_candidates_of_several_kinds() -> None:
+    kinds = {
+        Candidate("channel_delay", ChannelDelay(delay=0.1, channel=channel)).kind
+        for channel in (Signal.FORCE, Signal.CONTRACTION)
+    }
+    assert kinds == {("channel_delay", "force"), ("channel_delay", "contraction")}
+    creeps = {Candidate("creep", form).kind for form in forms(Creep)}
+    assert creeps == {("creep",)}

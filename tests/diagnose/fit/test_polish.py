@@ -1,0 +1,199 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from gripperd.diagnose.fit.polish import Polished, polished
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.constants import MADE, NUISANCE
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_lag import ValveLag
+from gripperd.model.effect import Effect
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    MODEL,
+    Hidden,
+    altered,
+    nothing,
+    pinned,
+    recording,
+    rubbing,
+    threshold,
+)
+
+
+def _off(**built: float) -> Explanation:
+    """The model of a rig whose muscle was built otherwise."""
+    return replace(MODEL, muscle=replace(MODEL.muscle, **built))
+
+
+def _problem(model: Explanation = MODEL) -> Problem:
+    return problem_of(recording(), model, {})
+
+
+def _start(problem: Problem, *effects: Effect) -> Point:
+    return Point(np.zeros(len(problem.constants)), effects)
+
+
+def _value(found: Polished, problem: Problem, path: str) -> tuple[float, float]:
+    """Fitted constant and its standard deviation."""
+    index = [one.path for one in problem.constants].index(path)
+    constant = problem.constants[index]
+    shift = float(found.point.shifts[index])
+    std = constant.sigma * float(found.covariance[index, index]) ** 0.5
+    return constant.nominal + shift * constant.sigma, std
+
+
+def test_a_wrong_diameter_is_found_within_its_standard_deviation() -> None:
+    problem = _problem(_off(diameter=0.0203))
+    problem = pinned(problem, "muscle.diameter")
+    found = polished(problem, _start(problem))
+    value, std = _value(found, problem, "muscle.diameter")
+    assert std < 5e-5
+    assert abs(value - 0.020) < 4 * std
+
+
+@pytest.mark.parametrize("diameter", [0.023, 0.017])
+def test_no_constant_moves_beyond_its_tolerance(diameter: float) -> None:
+    problem = _problem(_off(diameter=diameter))
+    found = polished(problem, _start(problem))
+    shifts = dict(zip(problem.constants, np.abs(found.point.shifts), strict=True))
+    parts = [s for c, s in shifts.items() if c.path.startswith(("muscle", "gripper"))]
+    assert max(parts) == pytest.approx(MADE)
+    assert max(shifts.values()) <= NUISANCE * (1 + 1e-9)
+
+
+def test_the_sign_of_friction_at_rest_is_no_larger_than_one() -> None:
+    problem = problem_of(recording(lambda m: 40.0 + 0 * m.time), MODEL, {})
+    found = polished(problem, _start(problem))
+    signs = problem.explanation(found.point).rests
+    assert max(abs(sign) for sign in signs.values()) <= 1.0 + 1e-9
+
+
+def test_a_freed_constant_goes_where_it_has_to() -> None:
+    problem = _problem(_off(diameter=0.022))
+    index = [one.path for one in problem.constants].index("muscle.diameter")
+    free = replace(_start(problem), freed=frozenset({index}))
+    value, std = _value(polished(problem, free), problem, "muscle.diameter")
+    assert value == pytest.approx(0.020, abs=5e-4)
+    assert std > 0
+
+
+def _cost(problem: Problem, found: Polished, vector: Array) -> float:
+    """Chi² plus priors, from residuals and the definition of the priors."""
+    count = found.point.shifts.size
+    effects = tuple(
+        replace(effect, bias=float(vector[count]) * found.coordinates[0].unit)
+        for effect in found.point.effects
+    )
+    point = Point(vector[:count], effects)
+    white = [
+        problem.white([left], index)
+        for index, left in enumerate(problem.residuals(point))
+    ]
+    return float(sum(np.sum(one**2) for one in white) + vector @ vector)
+
+
+def test_the_optimum_is_that_of_another_optimiser() -> None:
+    problem = _problem(_off(diameter=0.0202))
+    problem = pinned(problem, "muscle.diameter")
+    found = polished(problem, _start(problem, ForceSensorBias()))
+    size = found.covariance.shape[0]
+    assert size == len(problem.constants) + 1
+
+    def cost(vector: Array) -> float:
+        return _cost(problem, found, vector)
+
+    best = minimize(cost, np.zeros(size), method="BFGS", options={"gtol": 0.02})
+    assert found.cost == pytest.approx(best.fun, abs=0.05)
+    # The covariance is the inverse of half the Hessian of chi².
+    hessian = np.linalg.inv(found.covariance)
+    moved = np.zeros(size)
+    moved[-1] = 1.0
+    curved = [cost(best.x + step * moved) for step in (-1.0, 0.0, 1.0)]
+    assert hessian[-1, -1] == pytest.approx(
+        0.5 * (curved[0] - 2 * curved[1] + curved[2]), rel=0.02
+    )
+
+
+def test_the_cost_is_misfit_plus_prior() -> None:
+    problem = _problem(_off(diameter=0.0203))
+    found = polished(problem, _start(problem))
+    prior = float(found.point.shifts @ found.point.shifts)
+    assert found.cost == pytest.approx(sum(found.misfits.values()) + prior)
+    assert found.samples == sum(time.size for time in problem.times)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "start", "expected", "tolerance"),
+    [
+        (rubbing(20.0), CoulombFriction(magnitude=5.0), 20.0, 1.5),
+        (threshold(25.0), ThresholdPressure(pressure=10e3), 25e3, 1.5e3),
+    ],
+)
+def test_the_size_of_an_effect_is_found(
+    hidden: Hidden, start: Effect, expected: float, tolerance: float
+) -> None:
+    problem = problem_of(recording(hidden), MODEL, {})
+    found = polished(problem, _start(problem, start))
+    (effect,) = found.point.effects
+    name = found.coordinates[0].parameter
+    assert getattr(effect, name) == pytest.approx(expected, abs=tolerance)
+
+
+def test_an_amplitude_that_cannot_be_negative_ends_at_zero() -> None:
+    problem = problem_of(recording(rubbing(-15.0)), MODEL, {})
+    found = polished(problem, _start(problem, CoulombFriction(magnitude=10.0)))
+    (effect,) = found.point.effects
+    assert isinstance(effect, CoulombFriction)
+    assert effect.magnitude == 0.0
+
+
+def test_a_shape_stays_within_its_bounds() -> None:
+    problem = problem_of(recording(threshold(25.0)), MODEL, {})
+    soft = ThresholdPressure(pressure=25e3, softness=40e3)
+    found = polished(problem, _start(problem, soft))
+    (effect,) = found.point.effects
+    assert isinstance(effect, ThresholdPressure)
+    # The hidden threshold is sharp.
+    assert 0.0 <= effect.softness < 5e3
+
+
+def test_a_lag_is_found_in_time() -> None:
+    problem = _problem()
+    late = problem_of(_lagging(1.0), MODEL, {})
+    found = polished(late, _start(late, ValveLag(share=1.0, time=0.5)))
+    (effect,) = found.point.effects
+    assert isinstance(effect, ValveLag)
+    # Behind a ramp only this product shows.
+    behind = effect.share * (effect.dead_time + effect.time)
+    assert behind == pytest.approx(1.0, rel=0.15)
+    assert late.signals == problem.signals
+
+
+def _lagging(time: float) -> Recording:
+    return altered(
+        recording(nothing),
+        ("a", "b", "c", "b2"),
+        "current",
+        lambda current: np.interp(
+            np.arange(current.size) * 0.25 + time,
+            np.arange(current.size) * 0.25,
+            current,
+        ),
+    )
+
+
+def test_what_is_best_already_stays() -> None:
+    problem = _problem()
+    once = polished(problem, _start(problem))
+    again = polished(problem, once.point)
+    assert again.cost <= once.cost
+    assert again.cost == pytest.approx(once.cost, abs=0.5)

@@ -1,0 +1,83 @@
+import numpy as np
+import pytest
+from scipy.linalg import toeplitz
+
+from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
+from tests.diagnose.sweep import noise
+
+SIZE = 20_000
+
+
+@pytest.mark.parametrize("correlation", [0.0, 0.3, 0.6])
+def test_autoregressive_noise_is_measured(correlation: float) -> None:
+    found = quick_noise([noise(SIZE, 2.5, memory=correlation)])
+    assert found.std == pytest.approx(2.5, rel=0.05)
+    assert found.correlation == pytest.approx(correlation, abs=0.05)
+
+
+def test_what_moves_slowly_is_no_noise() -> None:
+    slow = 300.0 * np.sin(np.linspace(0.0, 60.0, SIZE))
+    found = quick_noise([slow + noise(SIZE, 2.5)])
+    assert found.std == pytest.approx(2.5, rel=0.05)
+
+
+def test_steps_and_spikes_are_no_noise() -> None:
+    column = noise(SIZE, 2.5)
+    column[5000:] += 400.0
+    column[::500] += 100.0
+    assert quick_noise([column]).std == pytest.approx(2.5, rel=0.05)
+
+
+def test_differences_between_runs_are_no_noise() -> None:
+    pieces = [noise(500, 2.5, seed) + 1000.0 * seed for seed in range(40)]
+    assert quick_noise(pieces).std == pytest.approx(2.5, rel=0.05)
+
+
+def test_missing_samples_are_left_out() -> None:
+    column = noise(SIZE, 2.5)
+    column[::7] = np.nan
+    assert quick_noise([column]).std == pytest.approx(2.5, rel=0.05)
+
+
+def test_a_wave_is_not_taken_for_a_strong_correlation() -> None:
+    wave = 100.0 * np.sin(2 * np.pi * np.arange(SIZE) / 40.0)
+    assert quick_noise([wave + noise(SIZE, 2.5)]).correlation < 0.35
+
+
+def test_without_noise_the_resolution_of_the_converter_remains() -> None:
+    steady = [np.full(50, 2.0), np.full(50, 2.4)]
+    # A uniform law of width 0.4 has a standard deviation of 0.4 / root 12.
+    assert quick_noise(steady).std == pytest.approx(0.4 / 12**0.5)
+    assert quick_noise(steady).correlation == 0.0
+
+
+def test_steps_are_no_noise_though_a_coarse_converter_repeats_most_readings() -> None:
+    held = 0.8 * np.round(noise(SIZE, 0.35) / 0.8)
+    jumps = np.where(np.arange(SIZE) % 100 < 4, noise(SIZE, 60.0, 1), 0.0)
+    assert np.mean(np.diff(held) == 0) > 0.5
+    step = coarse_step([held + jumps])
+    assert step == pytest.approx(0.8)
+    found = quick_noise([held + jumps], step)
+    assert found.std == pytest.approx(float(held.std()), rel=0.2)
+
+
+def test_a_fine_converter_has_no_step_to_speak_of() -> None:
+    assert coarse_step([noise(SIZE, 2.5)]) == 0.0
+    assert coarse_step([np.full(50, 2.0)]) == 0.0
+    assert coarse_step([]) == 0.0
+
+
+def test_nothing_measured_has_no_noise() -> None:
+    assert quick_noise([]) == Noise(0.0, 0.0)
+    assert quick_noise([np.full(9, np.nan)]) == Noise(0.0, 0.0)
+
+
+def test_the_slow_variance_is_what_a_long_mean_sees() -> None:
+    size = 1000
+    law = Noise(3.0, 0.5)
+    covariance = 9.0 * toeplitz(0.5 ** np.arange(size))
+    assert law.slow_variance == pytest.approx(covariance.sum() / size, rel=0.005)
+
+
+def test_the_floor_holds_noise_and_drift() -> None:
+    assert Noise(3.0, 0.5, drift=4.0).floor == pytest.approx(5.0)

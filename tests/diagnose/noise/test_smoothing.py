@@ -1,0 +1,93 @@
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from gripperd.diagnose.noise.smoothing import STIFFNESSES, smooth
+from gripperd.model.track import Array
+from tests.diagnose.sweep import noise
+
+TIME = np.linspace(0.0, 12.0, 60)
+
+
+def _covariance(time: Array, stiffness: float) -> Array:
+    """Of a line of unknown level and slope plus an integrated Wiener process."""
+    since = time - time[0]
+    first, last = np.minimum.outer(since, since), np.maximum.outer(since, since)
+    wander = first**2 * last / 2 - first**3 / 6
+    return np.asarray(1e6 + 1e6 * np.outer(since, since) + stiffness * wander)
+
+
+def _dense(column: Array, std: float) -> tuple[float, Array]:
+    """Best log density over all stiffnesses, and the posterior mean there."""
+    scaled = (column - column.mean()) / std
+    size = column.size
+    found: list[tuple[float, Array]] = []
+    for stiffness in STIFFNESSES.tolist():
+        trend = _covariance(TIME, stiffness)
+        law = multivariate_normal(np.zeros(size), trend + np.eye(size))
+        density = float(law.logpdf(scaled)) + 0.5 * size * np.log(2 * np.pi)
+        mean = trend @ np.linalg.solve(trend + np.eye(size), scaled)
+        found.append((density, mean * std + column.mean()))
+    return max(found, key=lambda one: one[0])
+
+
+def test_the_smoother_is_the_posterior_of_an_integrated_random_walk() -> None:
+    column = 40.0 * np.sin(TIME) + noise(60, 2.0)
+    density, mean = _dense(column, 2.0)
+    known = smooth(TIME, column, 4.0)
+    assert known.likelihood == pytest.approx(density, abs=0.01)
+    np.testing.assert_allclose(known.value, mean, atol=0.01)
+
+
+def test_of_a_noisy_line_little_but_the_line_is_left() -> None:
+    line = 100.0 + 3.0 * TIME
+    known = smooth(TIME, line + noise(60, 2.0), 4.0)
+    assert np.sqrt(np.mean((known.value - line) ** 2)) < 0.5 * 2.0
+    np.testing.assert_allclose(known.rate, 3.0, atol=0.3)
+
+
+def test_the_rate_is_the_slope_of_the_value() -> None:
+    known = smooth(TIME, 40.0 * np.sin(TIME) + noise(60, 0.5), 0.25)
+    np.testing.assert_allclose(known.rate[3:-3], 40 * np.cos(TIME)[3:-3], atol=6.0)
+
+
+def test_what_was_not_measured_is_bridged() -> None:
+    line = 100.0 + 3.0 * TIME
+    column = line + noise(60, 1.0)
+    column[20:40] = np.nan
+    known = smooth(TIME, column, 1.0)
+    np.testing.assert_allclose(known.value[20:40], line[20:40], atol=1.5)
+
+
+def test_a_supple_trend_keeps_a_corner_that_a_stiff_one_rounds() -> None:
+    time = np.linspace(0.0, 12.0, 600)
+    corner = 20.0 * np.abs(time - time[300])
+    columns = [corner + noise(600, 1.0, seed) for seed in range(12)]
+    stiff, supple = (
+        float(np.mean([smooth(time, one, 1.0, s).value[300] for one in columns]))
+        for s in (1.0, 1e4)
+    )
+    assert abs(supple) < 0.3 * abs(stiff)
+
+
+def test_a_column_without_noise_stays_as_it_is() -> None:
+    column = np.sin(TIME)
+    known = smooth(TIME, column, 0.0)
+    np.testing.assert_array_equal(known.value, column)
+    np.testing.assert_allclose(known.rate[1:-1], np.cos(TIME)[1:-1], atol=0.01)
+
+
+def test_a_column_nobody_measured_stays_unknown() -> None:
+    known = smooth(TIME, np.full(60, np.nan), 1.0)
+    assert np.isnan(known.value).all()
+
+
+def test_a_single_sample_has_no_rate() -> None:
+    known = smooth(np.zeros(1), np.array([7.0]), 1.0)
+    assert (known.value.tolist(), known.rate.tolist()) == ([7.0], [0.0])
+
+
+def _density(column: Array, std: float, stiffness: float) -> float:
+    scaled = (column - column.mean()) / std
+    covariance = _covariance(TIME, stiffness) + np.eye(column.size)
+    return float(multivariate_normal(np.zeros(60), covariance).logpdf(scaled))

@@ -1,0 +1,93 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.recording import Recording, Run
+from tests.diagnose.cycled import CORNER, REST_LENGTH, SIZE, WAY, cut, cycled
+from tests.diagnose.sweep import noise, run, triangle
+
+
+def _after(run: Run, start: float) -> Run:
+    return Run(run.name, {**run.columns, "time": run.columns["time"] + start})
+
+
+@pytest.mark.parametrize("std", [0.0, 2e-4, 5e-4])
+def test_the_reversal_lies_at_the_corner(std: float) -> None:
+    direction = cycled(WAY, std).direction
+    np.testing.assert_array_equal(direction[5 : CORNER - 4], 1.0)
+    np.testing.assert_array_equal(direction[CORNER + 5 :], -1.0)
+
+
+def test_noise_alone_does_not_turn_the_travel() -> None:
+    for seed in range(5):
+        direction = cycled(WAY, 5e-4, seed).direction
+        assert np.count_nonzero(np.diff(direction[direction != 0])) == 1
+
+
+def test_a_muscle_that_is_held_does_not_travel() -> None:
+    course = cycled(np.full(SIZE, 0.1), 5e-4)
+    assert not course.direction.any()
+    assert np.ptp(course.level("contraction")) == 0
+
+
+def test_at_rest_the_direction_is_kept() -> None:
+    way = np.interp(np.arange(SIZE), [0, 100, 300, 400], [0.0, 0.1, 0.1, 0.0])
+    np.testing.assert_array_equal(cycled(way).direction[10:297], 1.0)
+
+
+def test_without_contraction_there_is_no_direction() -> None:
+    (course,) = cut(run(pressure=triangle(), force=triangle()))
+    assert not course.direction.any()
+
+
+def test_a_length_becomes_a_contraction() -> None:
+    (course,) = cut(run(length=REST_LENGTH * (1 - WAY)))
+    np.testing.assert_allclose(course.column("contraction"), WAY, atol=1e-12)
+
+
+def test_what_was_not_measured_is_not_a_number() -> None:
+    course = cycled(WAY)
+    assert np.isnan(course.column("force")).all()
+    assert np.isnan(course.level("force")).all()
+
+
+def test_a_pause_cuts_a_run_in_two() -> None:
+    time = np.concatenate([0.1 * np.arange(100), 60.0 + 0.1 * np.arange(50)])
+    first, second = cut(run("x", time=time, pressure=noise(150, 1e3)))
+    assert (first.run, len(first), second.run, len(second)) == ("x#1", 100, "x#2", 50)
+    assert second.time[0] == 60.0
+    assert second.step[0] == 0.0
+
+
+def test_a_run_without_a_pause_keeps_its_name() -> None:
+    (course,) = cut(run("x", pressure=noise(100, 1e3)))
+    assert course.run == "x"
+
+
+def test_stillness_is_the_time_since_the_command_moved() -> None:
+    current = np.repeat([0.004, 0.012, 0.012, 0.008], 50)
+    (course,) = cut(run(current=current, pressure=noise(200, 1e3)))
+    assert course.still[49] == pytest.approx(4.9)
+    assert course.still[50] == 0.0
+    assert course.still[149] == pytest.approx(9.9)
+    assert course.still[150] == 0.0
+
+
+def test_a_stated_noise_is_a_lower_limit() -> None:
+    runs = (run(pressure=triangle() + noise(400, 1e3)),)
+    stated = Recording("r", "0" * 64, runs, noise={"pressure": 5e3})
+    plain = courses(Recording("r", "0" * 64, runs), REST_LENGTH)[1]["pressure"].std
+    assert plain == pytest.approx(1e3, rel=0.2)
+    assert courses(stated, REST_LENGTH)[1]["pressure"].std == 5e3
+
+
+def test_sweeps_come_in_the_order_of_the_recording() -> None:
+    runs = [
+        _after(run(name, pressure=triangle()), 100.0 * n)
+        for n, name in enumerate("xyz")
+    ]
+    parts = cut(*runs)
+    assert [course.run for course in parts] == ["x", "y", "z"]
+    assert all(a.time[-1] < b.time[0] for a, b in pairwise(parts))

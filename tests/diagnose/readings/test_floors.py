@@ -1,0 +1,92 @@
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.readings.fault import Check, Mask
+from gripperd.diagnose.readings.floors import ends_of_scale, slack
+from gripperd.diagnose.readings.recording import Run
+from gripperd.model.track import Array
+from tests.diagnose.sweep import noise, pulled, run, triangle
+
+
+def _rows(check: Check, runs: Sequence[Run]) -> dict[int, Mask]:
+    faults = check(runs)
+    return {fault.run: fault.rows for fault in faults if fault.rows.any()}
+
+
+def _with_force(sweep: Run, force: Array) -> Run:
+    return replace(sweep, columns={**sweep.columns, "force": force})
+
+
+def test_exact_zeros_of_a_slack_muscle_are_censored() -> None:
+    taut = pulled()
+    force = np.maximum(taut.columns["force"] - 300.0, 0.0)
+    (rows,) = _rows(slack, [_with_force(taut, force)]).values()
+    assert (rows == (force == 0.0)).all()
+    assert rows.sum() > 50
+
+
+def test_a_single_zero_counts_when_other_runs_are_slack_too() -> None:
+    high, low = np.arange(30.0), np.maximum(np.arange(30.0) - 10, 0.0)
+    rows = _rows(slack, [run("high", force=high), run("low", force=low)])
+    assert rows[0].tolist() == [True] + [False] * 29
+
+
+def test_a_zero_between_pull_and_push_is_a_reading() -> None:
+    force = np.tile(np.arange(-5.0, 6.0), 6)
+    assert _rows(slack, [run(force=force)]) == {}
+
+
+def test_two_zeros_are_a_coincidence() -> None:
+    force = np.r_[0.0, np.arange(1.0, 30.0), 0.0]
+    assert _rows(slack, [run(force=force)]) == {}
+
+
+def test_a_converter_at_its_floor_is_censored_in_every_run() -> None:
+    first, second = pulled("a", contraction=0.3), pulled("b", contraction=0.15, seed=7)
+    clipped = [
+        _with_force(sweep, np.maximum(sweep.columns["force"], -18.6))
+        for sweep in (first, second)
+    ]
+    rows = _rows(ends_of_scale, clipped)
+    for index, sweep in enumerate(clipped):
+        assert (rows[index] == (sweep.columns["force"] == -18.6)).all()
+        assert rows[index].sum() > 5
+
+
+def test_a_converter_at_its_ceiling_is_censored() -> None:
+    sweep = pulled()
+    force = np.minimum(sweep.columns["force"], 700.0)
+    (rows,) = _rows(ends_of_scale, [_with_force(sweep, force)]).values()
+    assert (rows == (force == 700.0)).all()
+
+
+def test_the_flat_top_of_a_coarse_channel_at_constant_pressure_is_a_reading() -> None:
+    pressure = np.minimum(triangle(400, high=700e3), 500e3) + np.linspace(0, 5e3, 400)
+    force = np.round(2e-3 * pressure / 20.0) * 20.0
+    for std in (0.0, 1e3):
+        sweep = run(
+            pressure=pressure + noise(400, std),
+            contraction=np.full(400, 0.1),
+            force=force,
+        )
+        assert _rows(ends_of_scale, [sweep]) == {}
+
+
+def test_two_weights_lifted_are_neither_floor_nor_ceiling() -> None:
+    free = 0.2 * triangle() / 500e3
+    runs = [
+        run(name, pressure=triangle(), contraction=free, force=np.full(400, force))
+        for name, force in (("light", -10.0), ("heavy", 2e3))
+    ]
+    assert _rows(ends_of_scale, [*runs, pulled(contraction=0.0)]) == {}
+
+
+def test_a_weight_that_pulls_with_one_force_is_a_reading() -> None:
+    sweep = run(pressure=triangle(), force=np.full(400, 68.7))
+    assert _rows(ends_of_scale, [sweep]) == {}
+
+
+def test_noise_around_the_least_force_is_no_floor() -> None:
+    assert _rows(ends_of_scale, [pulled(seed=seed) for seed in range(5)]) == {}

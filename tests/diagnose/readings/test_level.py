@@ -1,0 +1,93 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.smoothing import smooth
+from gripperd.diagnose.readings.course import Course
+from gripperd.model.track import Array
+from tests.diagnose.cycled import CORNER, SIZE, WAY, cut, cycled
+from tests.diagnose.sweep import noise, run, triangle
+
+
+def test_between_reversals_a_contraction_has_no_wiggle() -> None:
+    course = cycled(WAY, 5e-4)
+    steps = np.diff(course.level("contraction"))
+    assert (steps[: CORNER - 5] >= 0).all()
+    assert (steps[CORNER + 5 :] <= 0).all()
+
+
+def test_a_smoothed_column_is_nearer_to_the_truth() -> None:
+    course = cycled(WAY, 5e-4)
+    errors = [
+        np.std(column - WAY)
+        for column in (course.level("contraction"), course.column("contraction"))
+    ]
+    assert errors[0] < 0.5 * errors[1]
+
+
+def test_pressure_keeps_the_corner_of_its_command() -> None:
+    command = triangle(SIZE, 0.0, 500e3)
+    (course,) = cut(
+        run(
+            current=0.004 + 0.016 * command / 500e3, pressure=command + noise(SIZE, 2e3)
+        )
+    )
+    assert course.level("pressure")[CORNER] == pytest.approx(500e3, abs=1e3)
+
+
+def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None:
+    # Five samples a second of a regulator that follows within 15 ms.
+    command = np.repeat([100e3, 400e3, 200e3, 450e3], 100)
+    true = command.copy()
+    true[[100, 200, 300]] -= 0.5 * np.diff(command)[[99, 199, 299]]
+    time = np.linspace(0.0, 79.8, 400)
+    current = 0.004 + 0.016 * command / 500e3
+    (course,) = cut(run(time=time, current=current, pressure=true + noise(400, 2e3)))
+    left = (course.level("pressure") - true)[np.abs(np.arange(400) % 100 - 50) < 45]
+    assert np.std(left) < 0.5 * 2e3
+
+
+def _pulling(seed: int) -> tuple[Course, Array]:
+    """Pressure to and fro in five strokes at a fixed length, and the force it makes."""
+    way = np.abs((np.arange(SIZE) / 80.0) % 2.0 - 1.0)
+    pressure = 500e3 * way
+    force = 2e-3 * pressure - 100.0
+    (course,) = cut(
+        run(
+            current=0.004 + 0.016 * way,
+            pressure=pressure + noise(SIZE, 1e3, seed),
+            contraction=np.full(SIZE, 0.1),
+            force=force + noise(SIZE, 8.0, seed + 50),
+        )
+    )
+    return course, force
+
+
+def test_force_keeps_the_corners_that_the_pressure_has() -> None:
+    offs = []
+    for seed in range(8):
+        course, force = _pulling(seed)
+        offs.append((course.level("force") - force)[80:321:80])
+    # A trend alone is off by 15 N there, which the noise does not average to nought.
+    np.testing.assert_allclose(np.mean(offs, axis=0), 0.0, atol=3.0)
+
+
+def test_force_beside_pressure_has_less_noise_than_a_trend_alone() -> None:
+    course, force = _pulling(0)
+    alone = smooth(course.time, course.column("force"), 64.0)
+    beside, trend = (
+        float(np.std(level - force)) for level in (course.level("force"), alone.value)
+    )
+    assert beside < 0.5 * trend
+
+
+def test_force_that_does_not_go_with_the_pressure_keeps_its_own_trend() -> None:
+    # A slow drift beside a triangle: whatever follows the pressure adds corners to it.
+    force = np.linspace(-200.0, 200.0, SIZE)
+    (course,) = cut(
+        run(
+            pressure=triangle(SIZE) + noise(SIZE, 1e3),
+            contraction=np.full(SIZE, 0.1),
+            force=force + noise(SIZE, 2.0, 7),
+        )
+    )
+    assert np.std(course.level("force") - force) < 0.3

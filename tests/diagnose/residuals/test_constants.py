@@ -1,0 +1,142 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.residuals.constants import Constant, constants, moved
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.model.effect import Signal
+from tests.diagnose.small import LINKAGE, MODEL, recording, with_jaws
+
+JAWED = replace(MODEL, linkage=LINKAGE)
+SCALES = {Signal.PRESSURE: 500e3, Signal.FORCE: 1200.0}
+
+
+def _listed(**tolerances: float) -> dict[str, Constant]:
+    stated = {path.replace("__", "."): sigma for path, sigma in tolerances.items()}
+    return {one.path: one for one in constants(MODEL, stated, SCALES, [2])}
+
+
+@pytest.fixture(scope="module")
+def jawed() -> Problem:
+    return problem_of(with_jaws(recording()), JAWED, {})
+
+
+def test_a_stated_tolerance_is_taken_as_it_is() -> None:
+    diameter = _listed(muscle__diameter=3e-5)["muscle.diameter"]
+    assert (diameter.sigma, diameter.stated) == (3e-5, True)
+    assert diameter.nominal == MODEL.muscle.diameter
+
+
+def test_a_constant_without_one_is_known_to_about_a_part_tolerance() -> None:
+    diameter = _listed()["muscle.diameter"]
+    assert not diameter.stated
+    assert 0.005 * diameter.nominal < diameter.sigma < 0.02 * diameter.nominal
+
+
+def test_what_parts_are_made_to_does_not_depend_on_what_is_stated() -> None:
+    stated = _listed(muscle__diameter=3e-5, valve__pressure_low=100.0)
+    for path, constant in _listed().items():
+        assert stated[path].usual == constant.usual
+        assert constant.usual in (constant.sigma, 0.0)
+
+
+def test_a_constant_stated_to_be_exact_does_not_move() -> None:
+    assert "muscle.diameter" not in _listed(muscle__diameter=0.0)
+
+
+def test_friction_is_never_known_as_well_as_a_length() -> None:
+    listed = _listed(muscle__friction_coefficient=1e-9)
+    friction = listed["muscle.friction_coefficient"]
+    assert friction.sigma >= 0.05 * friction.nominal
+
+
+def test_the_low_end_of_the_valve_may_be_off_although_it_is_zero() -> None:
+    assert MODEL.regulator is not None
+    assert MODEL.regulator.pressure_low == 0.0
+    assert _listed()["valve.pressure_low"].sigma > 0
+
+
+def test_parts_that_are_not_there_have_no_constants() -> None:
+    bare = replace(MODEL, regulator=None)
+    owners = {one.path.partition(".")[0] for one in constants(bare, {}, SCALES, [])}
+    assert owners == {"muscle", "zero", "skew"}
+
+
+def test_every_sweep_at_rest_has_a_sign_of_its_own() -> None:
+    listed = constants(MODEL, {}, SCALES, [2, 5])
+    courses = {one.path: one.course for one in listed if one.course is not None}
+    assert courses == {"rest.2": 2, "rest.5": 5}
+
+
+def test_a_shift_is_in_sigma() -> None:
+    listed = constants(MODEL, {"muscle.diameter": 1e-4}, SCALES, [2])
+    shifts = [2.0 if one.path == "muscle.diameter" else 0.0 for one in listed]
+    there = moved(MODEL, listed, shifts)
+    assert there.muscle.diameter == pytest.approx(0.0202)
+    assert there.muscle == replace(MODEL.muscle, diameter=there.muscle.diameter)
+    assert there.regulator == MODEL.regulator
+
+
+def test_no_shift_makes_a_braid_that_nobody_could_wind() -> None:
+    listed = constants(MODEL, {"muscle.braid_angle": 1.0}, {}, [])
+    shifts = np.array([one.path == "muscle.braid_angle" for one in listed]) * 5.0
+    wide, narrow = (moved(MODEL, listed, s.tolist()) for s in (shifts, -shifts))
+    assert 0 < narrow.muscle.braid_angle < wide.muscle.braid_angle < np.pi / 2
+
+
+def _changed(problem: Problem, index: int) -> set[Signal]:
+    """Signals that answer to one sigma of a constant."""
+    shifts = np.zeros(len(problem.constants))
+    base = problem.expected(problem.explanation(Point(shifts.copy())))
+    shifts[index] = 1.0
+    there = problem.expected(problem.explanation(Point(shifts)))
+    return {
+        block.signal
+        for block, a, b in zip(problem.blocks, there, base, strict=True)
+        if np.abs(a - b).max() > 0
+    }
+
+
+def test_a_constant_changes_no_signal_it_is_not_said_to_change(jawed: Problem) -> None:
+    for index, constant in enumerate(jawed.constants):
+        assert _changed(jawed, index) <= constant.moves, constant.path
+
+
+@pytest.mark.parametrize(
+    ("path", "signals"),
+    [
+        ("muscle.rest_length", {Signal.FORCE, Signal.OPENING}),
+        ("muscle.diameter", {Signal.FORCE}),
+        ("valve.pressure_high", {Signal.PRESSURE}),
+        ("gripper.ratio", {Signal.OPENING}),
+        ("zero.pressure", {Signal.PRESSURE, Signal.FORCE}),
+        ("zero.contraction", {Signal.FORCE, Signal.OPENING}),
+        ("skew.contraction", {Signal.FORCE, Signal.OPENING}),
+        ("response.valve", {Signal.PRESSURE}),
+    ],
+)
+def test_it_changes_what_the_chain_says(
+    jawed: Problem, path: str, signals: set[Signal]
+) -> None:
+    (index,) = (i for i, one in enumerate(jawed.constants) if one.path == path)
+    assert _changed(jawed, index) == signals
+
+
+def test_a_part_is_off_by_two_sigma_at_most_what_has_no_tolerance_by_more() -> None:
+    stated = {"muscle.diameter": 2e-4}
+    (bore,) = (one for one in constants(JAWED, stated, SCALES, [2]) if one.stated)
+    assert bore.reach * bore.sigma == 4e-4
+    for one in constants(JAWED, stated, SCALES, [2]):
+        is_part = one.path.startswith(("muscle.", "valve.", "gripper."))
+        assert is_part or one.reach == 2.6, one.path
+
+
+@pytest.mark.parametrize(
+    "path", ["muscle.diameter", "valve.pressure_high", "gripper.ratio"]
+)
+def test_a_part_without_a_tolerance_is_off_by_2_percent_at_most(path: str) -> None:
+    (one,) = (one for one in constants(JAWED, {}, SCALES, [2]) if one.path == path)
+    assert one.reach * one.sigma == pytest.approx(0.02 * one.nominal, rel=0.005)

@@ -1,0 +1,144 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.residuals.holdout import Split, split
+from gripperd.diagnose.residuals.problem import Problem
+
+
+@pytest.fixture(scope="module")
+def parts(blank: Problem) -> Split:
+    return split(blank)
+
+
+def _few(problem: Problem, count: int) -> Split:
+    return split(replace(problem, courses=problem.courses[:count]))
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 8])
+def test_the_parts_share_no_sample_and_leave_none_out(
+    blank: Problem, count: int
+) -> None:
+    found = _few(blank, count)
+    for train, test in zip(found.train.kept, found.test.kept, strict=True):
+        assert not (train & test).any()
+        assert (train | test).all()
+
+
+def test_whole_sweeps_are_left_out(parts: Split) -> None:
+    for train, course in zip(parts.train.kept, parts.train.courses, strict=True):
+        assert train.all() != (course.run in parts.runs)
+        assert train.all() or not train.any()
+
+
+def test_the_parts_explain_no_sweep_twice(parts: Split) -> None:
+    train, test = (
+        {part.courses[block.course].run for block in part.blocks}
+        for part in (parts.train, parts.test)
+    )
+    assert not train & test
+    assert test == set(parts.runs)
+
+
+def test_about_a_fifth_is_left_out(parts: Split) -> None:
+    assert 1 <= len(parts.runs) <= 2
+
+
+def test_jaws_in_every_sweep_leave_it_a_fifth(blank: Problem, parts: Split) -> None:
+    opened = tuple(
+        replace(one, measured={**one.measured, "opening": 0.05 + 0 * one.time})
+        for one in blank.courses
+    )
+    assert split(replace(blank, courses=opened)).runs == parts.runs
+
+
+def test_of_three_sweeps_of_the_jaws_one_judges_them(
+    blank: Problem, parts: Split
+) -> None:
+    chosen = [one.run for one in blank.courses if one.run not in parts.runs][1:4]
+    courses = tuple(
+        replace(one, measured={**one.measured, "opening": 0.05 + 0 * one.time})
+        if one.run in chosen
+        else one
+        for one in blank.courses
+    )
+    found = split(replace(blank, courses=courses)).runs
+    assert set(found) == {*parts.runs, chosen[-1]}
+
+
+def test_the_first_sweep_stays_for_only_it_shows_a_first_inflation(
+    blank: Problem,
+) -> None:
+    for shift in range(8):
+        courses = (*blank.courses[shift:], *blank.courses[:shift])
+        assert courses[0].run not in split(replace(blank, courses=courses)).runs
+
+
+def test_a_sweep_that_goes_further_than_all_others_stays(blank: Problem) -> None:
+    index = next(
+        i for i, one in enumerate(blank.courses) if one.run == split(blank).runs[0]
+    )
+    far = blank.courses[index]
+    known = far.smooth["contraction"]
+    wide = replace(
+        far,
+        smooth={
+            **far.smooth,
+            "contraction": known._replace(value=3 * known.value + 0.1),
+        },
+    )
+    courses = (*blank.courses[:index], wide, *blank.courses[index + 1 :])
+    assert far.run not in split(replace(blank, courses=courses)).runs
+
+
+def test_of_few_sweeps_the_end_of_each_is_left_out(blank: Problem) -> None:
+    found = _few(blank, 3)
+    for mask, course in zip(found.test.kept, found.test.courses, strict=True):
+        left_out = np.flatnonzero(mask)
+        assert left_out[-1] == len(course) - 1
+        assert (np.diff(left_out) == 1).all()
+        assert left_out.size == pytest.approx(len(course) / 4, abs=1)
+    assert found.runs == tuple(f"{c.run} (last quarter)" for c in found.test.courses)
+
+
+def test_the_parts_keep_model_and_noise(blank: Problem, parts: Split) -> None:
+    for part in (parts.train, parts.test):
+        assert (part.model, part.noises) == (blank.model, blank.noises)
+
+
+def _grasps(problem: Problem, pulls: tuple[float, ...]) -> tuple[Problem, list[str]]:
+    """The same with jaws in every other sweep, that press as hard as told."""
+    courses = list(problem.courses)
+    places = [2, 4, 6][: len(pulls)]
+    for place, pull in zip(places, pulls, strict=True):
+        one = courses[place]
+        grip = pull * np.sin(np.linspace(0.0, np.pi, len(one)))
+        jaws = {"opening": np.full(len(one), 0.05), "grip": grip}
+        courses[place] = replace(one, measured={**one.measured, **jaws})
+    names = [courses[place].run for place in places]
+    return replace(problem, courses=tuple(courses)), names
+
+
+@pytest.mark.parametrize("pulls", [(60, 40, 20), (20, 60, 40), (40, 20, 60)])
+def test_of_three_grasps_one_is_spared_but_not_the_strongest(
+    blank: Problem, pulls: tuple[float, ...]
+) -> None:
+    problem, names = _grasps(blank, pulls)
+    spared = set(split(problem).runs) & set(names)
+    assert len(spared) == 1
+    assert names[pulls.index(60)] not in spared
+
+
+def test_a_spared_grasp_is_one_of_the_fifth(blank: Problem) -> None:
+    problem, _ = _grasps(blank, (40, 60, 20))
+    twice = replace(problem, courses=(*problem.courses, *blank.courses))
+    assert len(split(twice).runs) == round(0.2 * 16)
+
+
+@pytest.mark.parametrize("pulls", [(60, 40), (40, 60)])
+def test_of_two_grasps_the_stronger_is_never_spared(
+    blank: Problem, pulls: tuple[float, ...]
+) -> None:
+    problem, names = _grasps(blank, pulls)
+    assert names[pulls.index(60)] not in split(problem).runs

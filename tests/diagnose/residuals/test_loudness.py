@@ -1,0 +1,179 @@
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.loudness import _handed_on
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    FORCE_NOISE,
+    GRIP_NOISE,
+    LINKAGE,
+    MODEL,
+    PRESSURE_NOISE,
+    Hidden,
+    Moment,
+    altered,
+    recording,
+    rubbing,
+    tabled,
+    textbook,
+    threshold,
+    with_grip,
+)
+from tests.diagnose.sweep import noise
+
+JAWED = replace(MODEL, linkage=LINKAGE)
+ALL = ("vented", "a", "b", "c", "d", "e", "b2", "f")
+
+
+def test_the_noise_of_each_signal_is_measured(blank: Problem) -> None:
+    force, pressure = blank.noises[Signal.FORCE], blank.noises[Signal.PRESSURE]
+    # A fifth more than the sensor alone: smooth inputs are never quite right.
+    assert force.std == pytest.approx(FORCE_NOISE, rel=0.2)
+    assert pressure.std == pytest.approx(PRESSURE_NOISE, rel=0.2)
+    assert max(force.correlation, pressure.correlation) < 0.2
+
+
+def test_a_converter_of_coarse_steps_is_no_quieter_than_its_steps() -> None:
+    """Holds read in steps of 5 N, by a sensor with a noise of 1.5 N of its own.
+
+    Most readings repeat the one before, so all but a few changes of the residual are 0.
+    """
+    runs, errors = [], []
+    for place, held in enumerate((0.0, 0.04, 0.08, 0.12, 0.16)):
+        pressure = np.repeat([100e3, 200e3, 300e3, 400e3, 500e3], 40)
+        size, level = pressure.size, np.ones(pressure.size)
+        time = 200 * place + np.arange(0.0, 50.0, 0.25)
+        force = textbook(Moment(time, pressure, held * level, level))
+        read = 5.0 * np.round((force + noise(size, 1.5, place)) / 5.0)
+        errors.append(read - force)
+        columns = {
+            "time": time,
+            "pressure": pressure + noise(size, 200.0, 10 + place),
+            "contraction": held + noise(size, 2e-5, 20 + place),
+            "force": read,
+        }
+        runs.append(Run(str(held), columns))
+    problem = problem_of(Recording("coarse", "0" * 64, tuple(runs)), MODEL, {})
+    wrong = float(np.std(np.concatenate(errors)))
+    assert problem.noises[Signal.FORCE].std == pytest.approx(wrong, rel=0.15)
+
+
+@pytest.mark.parametrize("hidden", [threshold(25.0), rubbing(20.0)])
+def test_what_is_hidden_is_not_taken_for_noise(hidden: Hidden) -> None:
+    problem = problem_of(recording(hidden), MODEL, {})
+    assert problem.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.25)
+    assert problem.noises[Signal.FORCE].drift < 3.0
+
+
+@pytest.mark.parametrize(
+    "left_out",
+    [
+        pytest.param((), id="holds and repeats"),
+        pytest.param(("vented",), id="repeats alone"),
+        pytest.param(("b2",), id="holds alone"),
+    ],
+)
+def test_a_sensor_that_drifts_is_seen_to_drift(left_out: tuple[str, ...]) -> None:
+    runs = tuple(run for run in recording().runs if run.name not in left_out)
+    told = Recording("drift", "0" * 64, runs)
+    drifting = told
+    for seed, name in enumerate(ALL):
+        drifting = altered(drifting, [name], "force", _drifted(seed))
+    still, moving = (
+        problem_of(one, MODEL, {}).noises[Signal.FORCE] for one in (told, drifting)
+    )
+    assert moving.drift > 1.5 * still.drift
+    assert moving.std == pytest.approx(FORCE_NOISE, rel=0.2)
+
+
+def _drifted(seed: int) -> Callable[[Array], Array]:
+    """Add a drift of 5 N that forgets in 40 samples, 10 s."""
+    return lambda force: force + noise(force.size, 5.0, seed, float(np.exp(-1 / 40)))
+
+
+def _gripping(told: Recording, model: Explanation = JAWED) -> Problem:
+    return problem_of(with_grip(told), model, {})
+
+
+@pytest.fixture(scope="module")
+def gripping() -> Problem:
+    return _gripping(recording())
+
+
+def test_the_force_hands_its_noise_and_drift_on_to_the_grip(gripping: Problem) -> None:
+    told = {
+        Signal.FORCE: Noise(32.0, 0.5, drift=6.0, memory=60.0),
+        Signal.GRIP: Noise(3.0, 0.0, drift=0.5, memory=20.0),
+    }
+    handed = _handed_on(told, gripping)[Signal.GRIP]
+    # By the ratio of 4: 32² N² and 36 N² over 16, and what the grip has of its own.
+    assert handed.std**2 == pytest.approx(32**2 / 16 + GRIP_NOISE**2, rel=0.03)
+    turned = (0.003 * gripping.full_scale[Signal.GRIP]) ** 2
+    assert handed.drift**2 == pytest.approx(36 / 16 + 0.25 + turned)
+    # Means over many samples: three times the variance at a correlation of a half.
+    mean = handed.std**2 * (1 + handed.correlation) / (1 - handed.correlation)
+    assert mean == pytest.approx(3 * 32**2 / 16 + GRIP_NOISE**2, rel=0.05)
+    slow = handed.drift**2 * handed.memory
+    assert slow == pytest.approx(60 * 36 / 16 + 20 * 0.25 + 3 * turned)
+    assert _handed_on(told, gripping)[Signal.FORCE] == told[Signal.FORCE]
+
+
+def test_without_a_linkage_nothing_is_handed_on(gripping: Problem) -> None:
+    told = {Signal.FORCE: Noise(8.0, 0.5), Signal.GRIP: Noise(3.0, 0.0)}
+    bare = replace(gripping, model=MODEL)
+    assert _handed_on(told, bare) == told
+
+
+@pytest.mark.parametrize("loud", [4.0, 16.0])
+def test_a_grip_is_as_noisy_as_its_two_cells(loud: float) -> None:
+    problem = _gripping(recording(noise=loud))
+    both = float(np.hypot(GRIP_NOISE, loud * FORCE_NOISE / 4))
+    assert problem.noises[Signal.GRIP].std == pytest.approx(both, rel=0.2)
+    left = [
+        problem.white([residual], index)
+        for index, residual in enumerate(problem.residuals(_null(problem)))
+        if problem.blocks[index].signal is Signal.GRIP
+    ]
+    assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.2)
+
+
+def test_a_noisy_force_hides_no_contact(gripping: Problem) -> None:
+    loud = _gripping(recording(noise=8.0))
+    plain, noisy = (
+        sum(b.good.sum() for b in one.blocks if b.signal is Signal.GRIP)
+        for one in (gripping, loud)
+    )
+    assert noisy > 0.9 * plain
+
+
+def _null(problem: Problem) -> Point:
+    return Point(np.zeros(len(problem.constants)))
+
+
+def test_points_of_a_table_are_no_neighbours_of_each_other() -> None:
+    """Forces up to 1.3 kN and grips up to 280 N in any order: an instrument's 0.2 %."""
+    plain = tabled(lambda moment: 0 * moment.time)
+    random = np.random.default_rng(3)
+    runs = []
+    for run in plain.runs:
+        grip = np.maximum((run.columns["force"] - 240.0) / 4, 0.0)
+        order = random.permutation(len(run))
+        columns = {
+            name: column if name == "time" else column[order]
+            for name, column in {**run.columns, "grip": grip}.items()
+        }
+        runs.append(Run(run.name, columns, run.kind))
+    problem = problem_of(replace(plain, runs=tuple(runs)), JAWED, {})
+    top = problem.full_scale[Signal.GRIP]
+    # Beside its own that of the force, 2.6 N over 4.
+    assert 0.002 * top <= problem.noises[Signal.GRIP].std < 0.01 * top

@@ -1,0 +1,116 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    FORCE_NOISE,
+    MODEL,
+    PRESSURE_NOISE,
+    recording,
+    with_jaws,
+)
+
+
+@pytest.fixture
+def start(blank: Problem) -> Point:
+    return Point(np.zeros(len(blank.constants)))
+
+
+@pytest.fixture
+def truth(blank: Problem) -> Point:
+    """The rig came to rest contracting, and its regulator follows at once."""
+    built = {"rest": 1.0, "response": 0.0}
+    shifts = [
+        (built.get(one.path.partition(".")[0], one.nominal) - one.nominal) / one.sigma
+        for one in blank.constants
+    ]
+    return Point(np.array(shifts))
+
+
+def _of(problem: Problem, pieces: list[Array], signal: Signal) -> Array:
+    return np.concatenate(
+        [
+            piece
+            for block, piece in zip(problem.blocks, pieces, strict=True)
+            if block.signal is signal
+        ]
+    )
+
+
+def test_of_a_true_model_only_the_noise_is_left(blank: Problem, truth: Point) -> None:
+    residuals = blank.residuals(truth)
+    for signal, noise in (
+        (Signal.FORCE, FORCE_NOISE),
+        (Signal.PRESSURE, PRESSURE_NOISE),
+    ):
+        left = _of(blank, residuals, signal)
+        assert np.std(left) == pytest.approx(noise, rel=0.2)
+        assert abs(np.mean(left)) < 4 * noise / left.size**0.5
+
+
+def test_whitened_it_has_unit_variance(blank: Problem, truth: Point) -> None:
+    white = np.concatenate(
+        [blank.white([r], i)[:, 0] for i, r in enumerate(blank.residuals(truth))]
+    )
+    assert np.mean(white**2) == pytest.approx(1.0, abs=0.12)
+
+
+def test_a_signal_without_its_part_of_the_model_is_not_explained() -> None:
+    told = with_jaws(recording())
+    assert Signal.OPENING not in problem_of(told, MODEL, {}).signals
+    bare = problem_of(told, replace(MODEL, regulator=None), {})
+    assert bare.signals == (Signal.FORCE,)
+
+
+def test_samples_that_are_not_kept_take_no_part(blank: Problem) -> None:
+    masks = tuple(np.arange(len(course)) < 10 for course in blank.courses)
+    part = replace(blank, kept=masks)
+    assert part.signals == blank.signals
+    assert all(time[-1] - time[0] < 2.5 for time in part.times)
+
+
+def test_a_slack_muscle_tells_nothing(blank: Problem) -> None:
+    taut = replace(blank, slack=100.0)
+    force = _of(taut, taut.measured, Signal.FORCE)
+    assert force.min() > 100.0 - 4 * FORCE_NOISE
+    assert (
+        _of(taut, taut.measured, Signal.PRESSURE).size
+        == _of(blank, blank.measured, Signal.PRESSURE).size
+    )
+
+
+def test_the_full_scale_is_the_largest_reading(blank: Problem) -> None:
+    readings = [course.column("force") for course in blank.courses]
+    top = float(np.max(np.concatenate(readings)))
+    assert blank.full_scale[Signal.FORCE] == pytest.approx(top, rel=0.01)
+
+
+def test_a_louder_noise_whitens_to_less(blank: Problem, start: Point) -> None:
+    residual = blank.residuals(start)[0]
+    signal = blank.blocks[0].signal
+    twice = replace(blank, noises={**blank.noises, signal: Noise(2e3, 0.0)})
+    once = replace(blank, noises={**blank.noises, signal: Noise(1e3, 0.0)})
+    np.testing.assert_allclose(
+        2 * twice.white([residual], 0), once.white([residual], 0), rtol=1e-6
+    )
+
+
+def test_a_wrong_constant_reaches_as_far_as_its_prior_lets_it(
+    blank: Problem, start: Point
+) -> None:
+    paths = [one.path for one in blank.constants]
+    diameter, zero = paths.index("muscle.diameter"), paths.index("zero.force")
+    bound = blank.reach(start)
+    freed = blank.reach(replace(start, freed=frozenset({diameter})))
+    assert (bound[diameter], bound[zero]) == (3**0.5, 2.6)
+    assert freed[diameter] == 2.6
+    np.testing.assert_array_equal(
+        np.delete(freed, diameter), np.delete(bound, diameter)
+    )

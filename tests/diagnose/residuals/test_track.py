@@ -1,0 +1,95 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.track import directions, track_of
+from gripperd.effects.length_datum import LengthDatum
+from gripperd.model.effect import Signal
+from tests.diagnose.small import (
+    MODEL,
+    altered,
+    moments,
+    recording,
+    with_jaws,
+    without,
+)
+
+
+def _courses(told: Recording) -> dict[str, Course]:
+    return {course.run: course for course in courses(told, 0.25)[0]}
+
+
+@pytest.fixture(scope="module")
+def silent() -> dict[str, Course]:
+    """The small rig with sensors that hardly make a noise."""
+    return _courses(with_jaws(recording(noise=1e-3)))
+
+
+def test_what_happened_is_what_the_sensors_say_less_their_errors(
+    silent: dict[str, Course],
+) -> None:
+    wrong = replace(
+        MODEL.with_effect(LengthDatum(shift=0.01)), zeros={Signal.PRESSURE: 2e3}
+    )
+    course = silent["d"]
+    told, plain = (track_of(one, course, 0) for one in (wrong, MODEL))
+    np.testing.assert_allclose(told.contraction, plain.contraction - 0.01)
+    np.testing.assert_allclose(told.pressure, plain.pressure - 2e3)
+
+
+def test_a_channel_that_is_read_early_is_ahead_by_its_rate(
+    silent: dict[str, Course],
+) -> None:
+    early = replace(MODEL, skews={Signal.PRESSURE: 0.1})
+    told, plain = (track_of(one, silent["a"], 0).pressure for one in (early, MODEL))
+    # 40 kPa/s on the way up, so a tenth of a second is 4 kPa.
+    np.testing.assert_allclose((plain - told)[5:45], 4e3, rtol=0.02)
+
+
+def test_another_rest_length_is_another_contraction(silent: dict[str, Course]) -> None:
+    longer = replace(
+        MODEL, muscle=replace(MODEL.muscle, rest_length=0.26), told_length=0.25
+    )
+    course = silent["c"]
+    length = 0.25 * (1 - course.level("contraction"))
+    np.testing.assert_allclose(
+        track_of(longer, course, 0).contraction, (0.26 - length) / 0.26
+    )
+
+
+def test_the_sign_of_friction_at_rest_is_assumed_until_there_is_travel() -> None:
+    plain = without(recording(), "current")
+    course = _courses(plain)["b"]
+    signed = replace(MODEL, rests={4: -0.5})
+    np.testing.assert_array_equal(directions(signed, course, 4), -0.5)
+    np.testing.assert_array_equal(directions(signed, course, 5), 1.0)
+
+
+def test_it_may_turn_with_the_pressure_instead() -> None:
+    course = _courses(recording())["b"]
+    turning = replace(MODEL, at_rest=AtRest.INFLATING)
+    signs = directions(turning, course, 0)
+    np.testing.assert_array_equal(signs[5:48], 1.0)
+    np.testing.assert_array_equal(signs[56:], -1.0)
+
+
+def test_where_there_was_travel_its_direction_counts() -> None:
+    course = _courses(recording())["d"]
+    for convention in AtRest:
+        signs = directions(replace(MODEL, at_rest=convention), course, 0)
+        assert set(signs[5:45]) == {1.0}
+        assert set(signs[56:]) == {-1.0}
+
+
+def test_the_clock_of_what_happened_begins_with_the_recording() -> None:
+    plain = recording()
+    late = altered(plain, moments(), "time", lambda time: time + 1.7e9)
+    for one, other in zip(courses(late, 0.25)[0], courses(plain, 0.25)[0], strict=True):
+        told, known = (track_of(MODEL, course, 0).time for course in (one, other))
+        np.testing.assert_allclose(told, known, atol=1e-5)
+    assert track_of(MODEL, one, 0).time[0] > 0.0

@@ -1,0 +1,214 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.usable import usable
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    REGULATOR,
+    recording,
+    with_jaws,
+)
+from tests.diagnose.sweep import noise, run, triangle
+
+
+def _courses(told: Recording) -> dict[str, Course]:
+    return {course.run: course for course in courses(told, 0.25)[0]}
+
+
+@pytest.fixture(scope="module")
+def silent() -> dict[str, Course]:
+    """The small rig with sensors that hardly make a noise."""
+    return _courses(with_jaws(recording(noise=1e-3)))
+
+
+def test_samples_next_to_a_reversal_say_nothing_of_the_force(
+    silent: dict[str, Course],
+) -> None:
+    bad = np.flatnonzero(~usable(silent["d"], Signal.FORCE, 3.0))
+    turn = int(np.flatnonzero(np.diff(silent["d"].direction) < -1)[0])
+    assert turn in bad
+    assert bad[bad > 10].tolist() == list(range(turn - 1, turn + 4))
+
+
+def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
+    time = np.arange(0.0, 28.0, 0.04)
+    way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
+    told = run(
+        contraction=way + noise(time.size, 4e-4),
+        pressure=np.full(time.size, 3e5),
+        force=np.full(time.size, 500.0),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE, 1.0)
+    # 6e-4 of 10 % are gone 0.7 s after the turn.
+    near = np.abs(time - 14.0)
+    assert not good[near < 0.4].any()
+    assert good[(near > 1.2) & (time > 2)].all()
+
+
+@pytest.mark.parametrize(
+    ("given", "known_from"),
+    [
+        pytest.param(0.0, 301, id="a stone: when it is let go"),
+        # 5e-3 of contraction in 100 samples: 1.5e-3 are gone after 30.
+        pytest.param(0.005, 230, id="a sponge: when it has given way"),
+    ],
+)
+def test_jaws_that_hold_on_say_nothing_of_the_force_until_they_follow_the_pressure(
+    given: float, known_from: int
+) -> None:
+    # They meet an object at 100 and leave it at 300; the pressure turns at 200.
+    knots = [0, 100, 200, 300, 400]
+    sample = np.arange(401)
+    told = run(
+        pressure=np.interp(sample, knots, [0, 3e5, 5e5, 3e5, 0]) + noise(401, 300.0),
+        contraction=np.interp(sample, knots, [0, 0.1, 0.1 + given, 0.1, 0]),
+        grip=np.interp(sample, knots, [0, 0, 60, 0, 0]) + noise(401, 0.1, 3),
+        force=np.interp(sample, knots, [0, 300, 600, 300, 0]) + noise(401, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE, 1.0)
+    assert good[110:195].all()
+    assert not good[210 : known_from - 8].any()
+    assert good[known_from + 8 : 390].all()
+
+
+@pytest.mark.parametrize(
+    ("grip", "pressure"),
+    [
+        pytest.param(0.3, triangle(401), id="a grip cell that is off holds nothing"),
+        pytest.param(
+            np.append(np.zeros(50), np.full(351, 60.0)),
+            np.append(np.linspace(50e3, 300e3, 51), np.full(350, 291e3)),
+            id="an overshoot turns no load",
+        ),
+        pytest.param(
+            np.append(0.0, np.full(400, 60.0)), np.linspace(50e3, 500e3, 401),
+            id="the first rise is no turn",
+        ),
+    ],
+)  # fmt: skip
+def test_a_force_counts_while_nothing_holds_the_muscle_back(
+    grip: float | Array, pressure: Array
+) -> None:
+    told = run(
+        grip=grip + noise(401, 0.03),
+        pressure=pressure + noise(401, 300.0, 2),
+        contraction=np.full(401, 0.1),
+        force=1e-3 * pressure + noise(401, 1.0, 3),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE, 1.0)
+    assert good[60:195].all()
+    assert good[210:].all()
+
+
+def test_samples_next_to_a_step_of_pressure_are_left_out() -> None:
+    step = np.where(np.arange(100) < 50, 0.006, 0.012)
+    told = run(current=step, pressure=REGULATOR.gain * (step - 0.004))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.PRESSURE, 1e3)
+    assert not good[48:53].any()
+    assert good[:45].all()
+    assert good[55:].all()
+
+
+def test_a_slow_ramp_of_pressure_is_usable() -> None:
+    course = _courses(recording())["a"]
+    assert usable(course, Signal.PRESSURE, 1e3).all()
+
+
+def test_jaws_without_an_object_say_nothing_of_the_grip() -> None:
+    grip = np.where(np.arange(100) < 50, 0.2, 20.0)
+    told = run(
+        grip=grip,
+        force=np.full(100, 400.0) + noise(100, 1.0),
+        contraction=np.full(100, 0.1) + noise(100, 1e-4, 2),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    np.testing.assert_array_equal(usable(course, Signal.GRIP, 0.1), grip > 10)
+
+
+def test_a_missing_reading_is_not_usable() -> None:
+    gap = triangle(100)
+    gap[30:33] = np.nan
+    told = run(force=gap, pressure=triangle(100), contraction=np.full(100, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    assert not usable(course, Signal.FORCE, 1.0)[30:33].any()
+
+
+def _ramped(cut: float) -> Course:
+    """Up and down at a fixed length; the smooth pressure lies off near the top."""
+    pressure = triangle()
+    told = run(
+        pressure=pressure + noise(400, 1e3, 1),
+        contraction=np.full(400, 0.1),
+        force=2e-3 * pressure + noise(400, 4.0),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    near = np.abs(np.arange(400) - 199.5) < 5
+    known = Smooth(pressure - cut * near, np.gradient(pressure), variance=1e6)
+    return replace(course, smooth={**course.smooth, "pressure": known})
+
+
+def test_samples_where_the_smooth_pressure_cuts_a_corner_are_left_out() -> None:
+    bad = np.flatnonzero(~usable(_ramped(3e3), Signal.FORCE, 4.0))
+    assert {*range(196, 204)} <= {*bad}
+    assert bad[0] >= 190
+    assert bad[-1] < 210
+
+
+def test_noise_about_a_smooth_pressure_is_no_cut_corner() -> None:
+    assert usable(_ramped(0.0), Signal.FORCE, 4.0).all()
+
+
+def test_a_smooth_pressure_is_never_held_to_less_than_its_transmitter_is_good_for() -> (
+    None
+):
+    course = _ramped(0.0)
+    top = float(course.column("pressure").max())
+    for share, whole in ((5e-4, True), (2e-3, False)):
+        # What was filled in between two readings has no noise to speak of.
+        off = course.column("pressure") + share * top
+        known = Smooth(off, np.gradient(off), variance=9.0)
+        filled = replace(course, smooth={**course.smooth, "pressure": known})
+        assert usable(filled, Signal.FORCE, 4.0).all() == whole
+
+
+def test_a_smooth_force_that_cuts_a_corner_costs_no_grip() -> None:
+    force = 600.0 + noise(200, 1.0)
+    told = run(grip=np.full(200, 90.0), force=force, contraction=np.full(200, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    level = np.full(200, 600.0)
+    level[100:105] -= 5.0
+    smooth = {**course.smooth, "force": Smooth(level, 0 * level, variance=1.0)}
+    # Joints under a steady load never come loose, and readings are compared.
+    assert usable(replace(course, smooth=smooth), Signal.GRIP, 0.1).all()
+
+
+def test_a_grip_without_a_reading_of_the_force_is_not_usable() -> None:
+    force = 600.0 + noise(200, 1.0)
+    force[50:53] = np.nan
+    told = run(grip=np.full(200, 90.0), force=force, contraction=np.full(200, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    assert np.isfinite(course.level("force")).all()
+    bad = np.flatnonzero(~usable(course, Signal.GRIP, 0.1))
+    assert bad.tolist() == [50, 51, 52]
+
+
+def test_while_friction_turns_round_the_grip_says_nothing() -> None:
+    # Joints stick within 30 of 500 N, and are loose again when 59.4 N are undone.
+    force = 300.0 + 500.0 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 401)))
+    told = run(grip=force / 4, force=force, contraction=np.full(401, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    smooth = {**course.smooth, "force": Smooth(force, np.gradient(force))}
+    bad = np.flatnonzero(~usable(replace(course, smooth=smooth), Signal.GRIP, 0.1))
+    # 2.5 N a sample: 29.4 N at the start, 59.4 N after the top, two samples beside.
+    assert bad.tolist() == [*range(14), *range(199, 226)]

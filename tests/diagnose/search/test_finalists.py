@@ -1,0 +1,59 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.design import Member, design
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.finalists import finalists, heard, leaders
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.tapered_ends import TaperedEnds
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_offset import ValveOffset
+from gripperd.model.effect import Signal
+
+EARLY = Candidate("threshold_pressure", ThresholdPressure(pressure=10e3))
+LATE = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
+TAPERED = Candidate("tapered_ends", TaperedEnds(excess=0.1))
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+SHIFTED = Candidate("valve_offset", ValveOffset(offset=2e3))
+
+
+@pytest.fixture
+def ranked(blank: Problem) -> list[Member]:
+    """Candidates in the order of their rank, those of the force first."""
+    listed = (LATE, TAPERED, RUB, SHIFTED)
+    members = design(blank, Point(np.zeros(len(blank.constants))), listed).members
+    assert [member.candidate for member in members] == list(listed)
+    return list(members)
+
+
+def test_near_the_noise_the_first_few_are_heard(
+    blank: Problem, ranked: list[Member]
+) -> None:
+    sets = [(member,) for member in ranked]
+    assert heard(blank, sets, 2) == sets[:2]
+
+
+def test_where_misfit_counts_the_first_of_each_stage_is_heard_as_well(
+    blank: Problem, ranked: list[Member]
+) -> None:
+    hot = replace(blank, temperatures={Signal.FORCE: 40.0})
+    late, tapered, rub, shifted = ranked
+    sets = [(member,) for member in ranked]
+    assert heard(hot, sets, 2) == [(late,), (tapered,), (shifted,)]
+    pairs = [(late, tapered), (late, rub), (tapered, shifted), (rub, shifted)]
+    assert heard(hot, pairs, 1) == [(late, tapered), (tapered, shifted)]
+
+
+def test_the_best_form_leads_for_its_kind(blank: Problem) -> None:
+    point = Point(np.zeros(len(blank.constants)))
+    early, late, rub = design(blank, point, (EARLY, LATE, RUB)).members
+    assert leaders({early: 5.0, rub: 7.0, late: 6.0}) == [rub, late]
+
+
+def test_nothing_is_fitted_when_nothing_leaves_a_trace(blank: Problem) -> None:
+    around = design(blank, Point(np.zeros(len(blank.constants))), ())
+    assert finalists(blank, around, {}, thrifty=True) == []

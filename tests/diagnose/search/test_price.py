@@ -1,0 +1,214 @@
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.fit.temperature import louder
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search import price
+from gripperd.diagnose.search.price import acts_on, worth
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.pressure_friction import PressureFriction
+from gripperd.effects.pressure_sensor_bias import PressureSensorBias
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_offset import ValveOffset
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.fitted import fitted
+from tests.diagnose.small import (
+    LINKAGE,
+    MODEL,
+    Hidden,
+    Moment,
+    altered,
+    moments,
+    pinned,
+    recording,
+    restless,
+    rubbing,
+    threshold,
+    with_grip,
+    without,
+)
+
+
+@pytest.mark.parametrize(
+    ("candidate", "signals"),
+    [
+        (Candidate("c", CoulombFriction()), {Signal.FORCE}),
+        (Candidate("v", ValveOffset()), {Signal.PRESSURE}),
+        (Candidate("s", PressureSensorBias()), {Signal.FORCE, Signal.PRESSURE}),
+        (Candidate("parameter:muscle.rest_length", None, 0), {Signal.FORCE}),
+    ],
+)
+def test_a_candidate_acts_on_these_of_the_signals_explained(
+    blank: Problem, candidate: Candidate, signals: set[Signal]
+) -> None:
+    assert blank.constants[0].path == "muscle.rest_length"
+    assert acts_on(blank, candidate) == signals
+
+
+JAWED = replace(MODEL, linkage=LINKAGE)
+BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+DRIFT = Candidate("force_sensor_drift", ForceSensorDrift(rate=0.01))
+GROWS = Candidate("pressure_friction", PressureFriction())
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+THRESHOLD = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
+
+
+def _fits(told: Recording, *candidates: Candidate) -> tuple[Problem, list[Rival]]:
+    """The model alone, with one effect more, and so on."""
+    problem = problem_of(told, MODEL, {})
+    sets = (candidates[:count] for count in range(len(candidates) + 1))
+    return problem, [fitted(problem, *one) for one in sets]
+
+
+def _stretches_and_rubs(newtons: float) -> Hidden:
+    """60 kPa that do not pull, about 75 N, and so much dry friction."""
+    return lambda moment: threshold(60.0)(moment) + rubbing(newtons)(moment)
+
+
+@pytest.mark.parametrize(("newtons", "seen"), [(2.5, False), (8.0, True)])
+def test_an_effect_that_changes_no_reading_is_not_worth_its_price(
+    newtons: float, *, seen: bool
+) -> None:
+    # Full scale is 1.3 kN, of which sensors drift 3 N; these are quiet.
+    told = recording(_stretches_and_rubs(newtons), noise=0.1)
+    problem, (null, best, larger) = _fits(told, THRESHOLD, RUB)
+    assert larger.evidence - best.evidence > 100.0
+    assert worth(problem, null, best, larger, 20.0) is seen
+    # So is a first one.
+    problem, (null, best) = _fits(recording(rubbing(newtons), noise=0.1), RUB)
+    assert best.evidence - null.evidence > 100.0
+    assert worth(problem, null, null, best, 20.0) is seen
+
+
+@pytest.mark.parametrize(("newtons", "worth_it"), [(10.0, False), (20.0, True)])
+def test_a_ramp_that_a_sound_sensor_may_drift_is_no_fault(
+    newtons: float, *, worth_it: bool
+) -> None:
+    # Sensors drift by 0.2 % (sd) of 1.3 kN; a ramp of that sd ends 9 N away.
+    told = recording(lambda m: newtons * m.time / 690.0, noise=0.1)
+    problem, (null, best) = _fits(told, DRIFT)
+    assert best.evidence - null.evidence > 100.0
+    assert worth(problem, null, null, best, 20.0) is worth_it
+
+
+def _drifts(force: Array) -> Array:
+    return force + np.linspace(0.0, 40.0, force.size)
+
+
+def test_a_drift_that_shows_in_the_grip_alone_is_held_against_the_grip() -> None:
+    told = with_grip(recording(noise=0.1))
+    told = altered(
+        told, moments(), "force", lambda read: read + np.linspace(0, 40, read.size)
+    )
+    problem = problem_of(without(told, "pressure", "current"), JAWED, {})
+    assert problem.signals == (Signal.GRIP,)
+    null, best = (fitted(problem, *one) for one in ((), (DRIFT,)))
+    assert best.evidence - null.evidence > 20.0
+    assert worth(problem, null, null, best, 20.0)
+
+
+def _rubs_more(growth: float) -> Hidden:
+    """Dry friction of 120 N whose law is not ours: so much more at full pressure."""
+
+    def lost(moment: Moment) -> Array:
+        slides = np.ptp(moment.contraction) > 0
+        grown = 1 + growth * moment.pressure / 500e3
+        return rubbing(120.0)(moment) * slides * grown
+
+    return lost
+
+
+@pytest.mark.parametrize(
+    ("hidden", "first", "further", "worth_it"),
+    [
+        (_stretches_and_rubs(7.0), THRESHOLD, RUB, True),
+        (_rubs_more(0.3), RUB, GROWS, False),
+    ],
+)
+def test_what_closes_little_must_not_be_what_bends_the_first(
+    hidden: Hidden, first: Candidate, further: Candidate, *, worth_it: bool
+) -> None:
+    """Each closes about a hundredth of the first gap, far above the noise."""
+    problem, (null, best, larger) = _fits(recording(hidden), first, further)
+    assert larger.evidence - best.evidence > 100.0
+    assert best.fit.cost - larger.fit.cost < 0.015 * (null.fit.cost - best.fit.cost)
+    assert larger.excess < (2 * larger.fit.samples) ** 0.5
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+def test_what_but_bends_the_first_may_close_as_much_as_it_will() -> None:
+    problem, (null, best, larger) = _fits(recording(_rubs_more(6.0)), RUB, GROWS)
+    closed = null.fit.cost - larger.fit.cost
+    assert best.fit.cost - larger.fit.cost > 0.06 * closed
+    assert not worth(problem, null, best, larger, 20.0)
+
+
+@pytest.mark.parametrize(
+    ("first", "further", "worth_it"),
+    [
+        ((), (), True),
+        (("coulomb_friction",), (), False),
+        ((), ("threshold_pressure",), False),
+    ],
+)
+def test_of_what_a_known_double_closes_bending_the_first_may_not_take_most(
+    monkeypatch: pytest.MonkeyPatch,
+    first: tuple[str, ...],
+    further: tuple[str, ...],
+    *,
+    worth_it: bool,
+) -> None:
+    problem, (null, best, larger) = _fits(
+        recording(_stretches_and_rubs(40.0)), THRESHOLD, RUB
+    )
+    closed = null.fit.cost - larger.fit.cost
+    assert best.fit.cost - larger.fit.cost > 0.06 * closed
+    monkeypatch.setattr(price, "bent", lambda _, rival, names: 0.4 * rival.fit.cost)
+    monkeypatch.setattr(ThresholdPressure, "confused_with", first)
+    monkeypatch.setattr(CoulombFriction, "confused_with", further)
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(("newtons", "worth_it"), [(7.0, False), (20.0, True)])
+def test_what_leaves_more_than_noise_must_close_more(
+    newtons: float, *, worth_it: bool
+) -> None:
+    told = recording(restless(_stretches_and_rubs(newtons)))
+    problem, (null, best, larger) = _fits(told, THRESHOLD, RUB)
+    assert larger.evidence - best.evidence > 40.0
+    assert larger.excess > 10 * (2 * larger.fit.samples) ** 0.5
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(("apart", "worth_it"), [(0.0, True), (35.0, False)])
+def test_far_above_the_noise_an_addition_must_foretell_the_sweeps_it_never_saw(
+    apart: float, *, worth_it: bool
+) -> None:
+    """The zero of the force is off by 15 N on average, and by as much each time or not.
+
+    The mean of all gains as much in the fit, but that of the rest does not tell a sweep
+    whose zero lies on the other side.
+    """
+    told = recording(rubbing(20.0))
+    for place, name in enumerate(moments()):
+        zero = 15.0 + apart * (-1) ** place
+        told = altered(told, [name], "force", _off_by(zero))
+    problem = pinned(problem_of(told, MODEL, {}), "muscle.diameter")
+    problem = louder(problem, {Signal.FORCE: 5.0, Signal.PRESSURE: 1.0})
+    null, best, larger = (fitted(problem, *one) for one in ((), (RUB,), (RUB, BIAS)))
+    assert larger.evidence - best.evidence > 30.0
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+def _off_by(zero: float) -> Callable[[Array], Array]:
+    return lambda reading: reading + zero

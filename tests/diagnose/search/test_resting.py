@@ -1,0 +1,62 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import candidates
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.resting import with_resting_sign
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects import EFFECTS
+from gripperd.model.track import Array
+from tests.diagnose.small import MODEL, Hidden, Moment, nothing, recording, without
+
+COLUMNS = frozenset({"time", "current", "pressure", "contraction", "force"})
+LIBRARY = {name: EFFECTS[name] for name in ("coulomb_friction", "force_sensor_bias")}
+
+
+def _decided(told: Recording) -> tuple[Problem, Problem]:
+    problem = problem_of(told, MODEL, {})
+    listed, _ = candidates(LIBRARY, problem, COLUMNS)
+    return problem, with_resting_sign(problem, listed)
+
+
+def _turning(moment: Moment) -> Array:
+    """Friction that is against the pressure where nothing travels: 25 N."""
+    if np.ptp(moment.contraction) > 0:
+        return -25.0 * moment.direction
+    rises = np.gradient(moment.pressure) >= 0
+    return np.where(rises, -25.0, 25.0)
+
+
+def _carried(moment: Moment) -> Array:
+    return -25.0 * moment.direction
+
+
+@pytest.mark.parametrize(
+    ("hidden", "sign"),
+    [
+        pytest.param(_turning, AtRest.INFLATING, id="turns with the pressure"),
+        pytest.param(_carried, AtRest.CARRIED, id="stays as it came"),
+        pytest.param(nothing, AtRest.CARRIED, id="little friction"),
+    ],
+)
+def test_the_convention_that_the_data_support_is_taken(
+    hidden: Hidden, sign: AtRest
+) -> None:
+    _, decided = _decided(recording(hidden))
+    assert decided.model.at_rest is sign
+
+
+def test_nothing_else_of_the_problem_changes() -> None:
+    problem, decided = _decided(recording(_turning))
+    assert decided.constants == problem.constants
+    assert decided.noises == problem.noises
+    assert decided.courses is problem.courses
+
+
+def test_without_a_sweep_at_rest_there_is_nothing_to_decide() -> None:
+    moving = without(recording(_turning), "current")
+    moving = Recording("m", "0", tuple(r for r in moving.runs if r.name in "def"))
+    problem, decided = _decided(moving)
+    assert decided is problem

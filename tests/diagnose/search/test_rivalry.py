@@ -1,0 +1,182 @@
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.temperature import louder
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.rivalry import contest
+from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.force_sensor_gain import ForceSensorGain
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_offset import ValveOffset
+from gripperd.model.effect import Signal
+from tests.diagnose.fitted import ended, fitted
+from tests.diagnose.small import (
+    MODEL,
+    Hidden,
+    altered,
+    moments,
+    pinned,
+    recording,
+    restless,
+    rubbing,
+    textbook,
+    threshold,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Twin(CoulombFriction):
+    """The same formula by another name: nobody can tell it apart."""
+
+    name: ClassVar[str] = "twin"
+
+
+@dataclass(frozen=True, slots=True)
+class Third(CoulombFriction):
+    """Nor this one."""
+
+    name: ClassVar[str] = "third"
+
+
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+TWIN = Candidate("twin", Twin(magnitude=20.0))
+BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
+LATE = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
+GAIN = Candidate("force_sensor_gain", ForceSensorGain(error=0.02))
+BORE = Candidate("parameter:muscle.diameter", None, 0)
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    rubbed = problem_of(recording(rubbing(20.0)), MODEL, {})
+    return pinned(rubbed, "muscle.diameter", "zero.force")
+
+
+def _found(problem: Problem, *listed: Candidate) -> Found:
+    return search(problem, listed, np.random.default_rng(0))
+
+
+def _believing(found: Found, *wrong: Candidate) -> Found:
+    """A search that ended with something else."""
+    point = found.null.fit.point
+    for candidate in wrong:
+        point = added(point, candidate)
+    return replace(found, best=Rival(wrong, polished(found.problem, point)))
+
+
+def test_twins_are_equivalent(problem: Problem) -> None:
+    listed = (RUB, TWIN, BIAS)
+    decided = contest(_found(problem, *listed), listed)
+    (own,) = decided.best.names
+    (others,) = decided.equivalents
+    assert {own, *others} == {"coulomb_friction", "twin"}
+
+
+@pytest.mark.parametrize("own", [RUB, TWIN])
+def test_a_twin_takes_no_place(problem: Problem, own: Candidate) -> None:
+    # Which of them has been fitted a little further is up to the processor.
+    believed = _believing(_found(problem, RUB), own)
+    assert contest(believed, (RUB, TWIN)).best.names == (own.name,)
+
+
+def test_what_explains_less_is_no_equivalent(problem: Problem) -> None:
+    listed = (RUB, BIAS)
+    decided = contest(_found(problem, *listed), listed)
+    assert decided.best.names == ("coulomb_friction",)
+    assert decided.equivalents == ((),)
+
+
+def test_a_better_rival_takes_the_place_of_a_wrong_choice(problem: Problem) -> None:
+    listed = (RUB, BIAS)
+    wrong = _believing(_found(problem, *listed), BIAS)
+    assert contest(wrong, listed).best.names == ("coulomb_friction",)
+
+
+def test_what_the_rest_has_made_idle_is_dropped(problem: Problem) -> None:
+    listed = (RUB, BIAS)
+    wrong = _believing(_found(problem, *listed), BIAS, RUB)
+    assert contest(wrong, listed).best.names == ("coulomb_friction",)
+
+
+def test_the_best_without_an_effect_is_the_best_of_the_rest(problem: Problem) -> None:
+    found = _found(problem, RUB)
+    decided = contest(found, (RUB,))
+    (without,) = decided.without
+    assert without.names == ()
+    assert without.evidence == pytest.approx(found.null.evidence, abs=0.5)
+    assert decided.best.evidence - without.evidence > found.threshold
+
+
+def test_nothing_found_has_no_rivals(blank: Problem) -> None:
+    listed = (RUB, BIAS)
+    decided = contest(_found(pinned(blank, "zero.force"), *listed), listed)
+    assert (decided.best.names, decided.rivals, decided.without) == ((), (), ())
+
+
+def test_rivals_come_best_first_and_none_beats_the_best(problem: Problem) -> None:
+    third = Candidate("third", Third(magnitude=20.0))
+    listed = (RUB, TWIN, third)
+    decided = contest(_found(problem, *listed), listed)
+    (rivals,) = decided.rivals
+    evidence = [one.evidence for one in rivals]
+    assert len(evidence) == 2
+    assert evidence == sorted(evidence, reverse=True)
+    assert max(evidence) <= decided.best.evidence + 1e-6
+
+
+def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
+    # Friction shows in the force alone, and a valve that is off in the pressure alone.
+    short = 0.016 * 4.4 / 500
+    low = altered(
+        recording(rubbing(6.0)), moments(), "current", lambda current: current + short
+    )
+    problem = pinned(problem_of(low, MODEL, {}), "muscle.diameter")
+    valve = Candidate("valve_offset", ValveOffset(offset=2e3))
+    best, other = fitted(problem, RUB), fitted(problem, valve)
+    assert 5.0 < best.evidence - other.evidence < 20.0
+    decided = contest(ended(problem, best), (RUB, valve, TWIN))
+    assert decided.best.names == ("coulomb_friction",)
+    assert decided.equivalents == (("twin",),)
+
+
+def _loud(hidden: Hidden, temperature: float, **known: float) -> Problem:
+    """A recording in which misfit, not noise, is what is weighed against."""
+    told = recording(restless(hidden))
+    tolerances = {f"muscle.{name}": sigma for name, sigma in known.items()}
+    problem = pinned(problem_of(told, MODEL, tolerances), "muscle.diameter")
+    return louder(problem, {Signal.FORCE: temperature, Signal.PRESSURE: 1.0})
+
+
+@pytest.mark.parametrize(
+    ("newtons", "told"),
+    [(70.0, "force_sensor_bias"), (150.0, "coulomb_friction")],
+)
+def test_far_above_the_noise_what_a_limit_holds_back_takes_no_place(
+    newtons: float, told: str
+) -> None:
+    # No sensor in use is off by more than 6.5 % of 1.4 kN.
+    problem = _loud(lambda m: newtons + 0 * m.time, 25.0)
+    decided = contest(ended(problem, fitted(problem, RUB)), (RUB, BIAS))
+    assert decided.best.names == (told,)
+
+
+def test_far_above_the_noise_a_mere_factor_does_not_take_the_place_of_the_bore() -> (
+    None
+):
+    problem = _loud(
+        lambda m: 0.94 * threshold(40.0)(m) - 0.06 * textbook(m), 12.0, diameter=1e-4
+    )
+    bore, factor = fitted(problem, LATE, BORE), fitted(problem, LATE, GAIN)
+    assert factor.evidence > bore.evidence
+    decided = contest(ended(problem, bore), (LATE, BORE, GAIN))
+    assert decided.best.names == bore.names

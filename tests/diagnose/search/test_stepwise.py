@@ -1,0 +1,110 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import Candidate, forms
+from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.model.track import Array
+from tests.diagnose.fitted import fitted
+from tests.diagnose.searched import OPEN, searched
+from tests.diagnose.small import (
+    MODEL,
+    Hidden,
+    Moment,
+    nothing,
+    pinned,
+    recording,
+    rubbing,
+    tabled,
+    threshold,
+)
+
+
+def _both(moment: Moment) -> Array:
+    return threshold(30.0)(moment) + rubbing(25.0)(moment)
+
+
+@pytest.fixture(scope="module")
+def late() -> Found:
+    return searched(threshold(25.0))
+
+
+def test_where_nothing_is_hidden_nothing_issearched() -> None:
+    found = searched(nothing)
+    assert found.best is found.null
+    assert found.best.names == ()
+    assert max(found.gains.values()) < found.threshold
+
+
+@pytest.mark.parametrize(
+    ("hidden", "names"),
+    [
+        pytest.param(rubbing(20.0), {"coulomb_friction"}, id="friction"),
+        pytest.param(lambda m: 25.0 + 0 * m.time, {"force_sensor_bias"}, id="bias"),
+        pytest.param(_both, {"threshold_pressure", "coulomb_friction"}, id="two"),
+    ],
+)
+def test_what_is_hidden_issearched(hidden: Hidden, names: set[str]) -> None:
+    assert set(searched(hidden).best.names) == names
+
+
+def test_far_from_the_model_and_without_a_candidate_nothing_is_named() -> None:
+    problem = pinned(problem_of(recording(threshold(60.0)), MODEL, {}), *OPEN)
+    found = search(problem, (), np.random.default_rng(0))
+    assert found.problem.is_hot
+    assert found.best is found.null
+
+
+def test_the_best_has_paid_its_price(late: Found) -> None:
+    assert late.best.names == ("threshold_pressure",)
+    assert late.best.evidence - late.null.evidence > late.threshold
+    assert late.gains["threshold_pressure"] == max(late.gains.values())
+
+
+def test_rivals_come_best_first_and_the_model_itself_is_one(late: Found) -> None:
+    evidence = [rival.evidence for rival in late.rivals]
+    assert evidence == sorted(evidence, reverse=True)
+    assert late.null in late.rivals
+    assert late.best in late.rivals
+
+
+def test_noise_alone_rarely_gains_the_threshold(late: Found) -> None:
+    assert np.mean(late.nulls > late.threshold) <= 0.011
+
+
+def test_the_same_seed_finds_the_same(late: Found) -> None:
+    again = searched(threshold(25.0))
+    np.testing.assert_array_equal(again.nulls, late.nulls)
+    np.testing.assert_array_equal(
+        again.best.fit.point.shifts, late.best.fit.point.shifts
+    )
+    assert again.best.fit.point.effects == late.best.fit.point.effects
+    assert again.gains == late.gains
+
+
+def test_another_seed_draws_other_recordings(late: Found) -> None:
+    other = searched(threshold(25.0), seed=1)
+    assert not np.array_equal(other.nulls, late.nulls)
+    assert other.best.names == late.best.names
+
+
+@pytest.mark.parametrize(
+    ("told", "share"),
+    [(tabled(threshold(25.0)), 3), (recording(threshold(25.0)), 1)],
+    ids=["table", "sweeps"],
+)
+def test_of_a_table_every_form_is_fitted_in_full_of_sweeps_the_likeliest(
+    told: Recording, share: int
+) -> None:
+    problem = pinned(problem_of(told, MODEL, {}), *OPEN)
+    listed = [Candidate(one.name, one) for one in forms(ThresholdPressure)]
+    found = search(problem, listed, np.random.default_rng(0))
+    heard = [one for rival in found.rivals for one in rival.candidates]
+    assert len(listed) == 3
+    assert len(heard) == len(set(heard)) == share
+    assert set(heard) <= set(listed)
+    fits = [fitted(found.problem, one).evidence for one in listed]
+    assert found.best.evidence == pytest.approx(max(fits), abs=0.5)

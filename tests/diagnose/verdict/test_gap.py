@@ -1,0 +1,163 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.holdout import split
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.verdict.gap import Gap, by_signal, gaps
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.model.effect import Signal
+
+NOISES = {Signal.FORCE: Noise(3.0, 0.0, drift=4.0), Signal.PRESSURE: Noise(1e3, 0.0)}
+
+
+def _gap(recalibrated: float, after: float, floor: float = 3.0) -> Gap:
+    return Gap(Signal.FORCE, 30.0, recalibrated, after, floor, (after, after))
+
+
+@pytest.fixture(scope="module")
+def judged(blank: Problem) -> tuple[Problem, dict[Signal, Gap]]:
+    start = Point(np.zeros(len(blank.constants)))
+    points = tuple(
+        start.with_effect(ForceSensorBias(bias=b)) for b in (40.0, 20.0, 0.0)
+    )
+    test = split(blank).test
+    one, other, last = points
+    return test, gaps(test, (one, other, last), NOISES, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize(
+    ("gap", "share"),
+    [
+        pytest.param(_gap(5.0, 3.0), 1.0, id="down to the noise"),
+        pytest.param(_gap(5.0, 5.0), 0.0, id="nothing"),
+        pytest.param(_gap(5.0, 17**0.5), 0.5, id="half of the mean square"),
+        pytest.param(_gap(5.0, 41**0.5), -1.0, id="worse"),
+        pytest.param(_gap(2.0, 1.0), 0.0, id="no gap to close"),
+    ],
+)
+def test_the_share_closed_is_of_the_mean_square_above_the_noise(
+    gap: Gap, share: float
+) -> None:
+    assert gap.closed == pytest.approx(share)
+
+
+@pytest.mark.parametrize(
+    ("gap", "confirms"),
+    [
+        pytest.param(_gap(9.0, 3.0), True, id="down to the noise"),
+        pytest.param(_gap(3.2, 3.2), True, id="there was nothing to close"),
+        pytest.param(_gap(3.2, 3.3), False, id="worse than constants alone"),
+        pytest.param(_gap(2.8, 3.0), True, id="worse, but within the noise"),
+        pytest.param(_gap(9.0, 6.0), True, id="five eighths of the mean square"),
+        pytest.param(_gap(9.0, 8.0), False, id="a quarter of the mean square"),
+    ],
+)
+def test_effects_are_confirmed_by_what_they_close_of_a_gap(
+    gap: Gap, *, confirms: bool
+) -> None:
+    assert gap.confirms(1) is confirms
+    assert gap.confirms(2) is confirms
+
+
+@pytest.mark.parametrize(
+    ("after", "low", "confirms"),
+    [(3.4, 3.1, True), (3.4, 3.3, False), (4.2, 3.1, False)],
+)
+def test_what_is_worse_by_chance_where_little_was_left_says_nothing(
+    after: float, low: float, *, confirms: bool
+) -> None:
+    # 3.2 N were left of a noise of 3 N, and 3.9 N is as far as noise may go.
+    gap = replace(_gap(3.2, after), ci95_after=(low, 2 * after - low))
+    assert gap.confirms(1) is confirms
+
+
+@pytest.mark.parametrize(("recalibrated", "is_open"), [(3.8, False), (4.0, True)])
+def test_a_gap_is_open_from_thirteen_tenths_of_the_noise(
+    recalibrated: float, *, is_open: bool
+) -> None:
+    assert _gap(recalibrated, 3.0).is_open is is_open
+
+
+def test_the_gap_is_the_root_mean_square_of_what_was_left_out(
+    judged: tuple[Problem, dict[Signal, Gap]],
+) -> None:
+    test, found = judged
+    start = Point(np.zeros(len(test.constants)))
+    left = by_signal(test, start)[Signal.FORCE]
+    force = found[Signal.FORCE]
+    assert force.after == pytest.approx(float(np.sqrt(np.mean(left**2))))
+    assert force.recalibrated == pytest.approx(np.sqrt(np.mean((left - 20) ** 2)))
+    assert force.before == pytest.approx(np.sqrt(np.mean((left - 40) ** 2)))
+
+
+def test_each_signal_is_judged_by_itself(
+    judged: tuple[Problem, dict[Signal, Gap]],
+) -> None:
+    _, found = judged
+    pressure = found[Signal.PRESSURE]
+    assert pressure.before == pressure.after
+    assert set(found) == {Signal.FORCE, Signal.PRESSURE}
+
+
+def test_the_floor_is_the_repeatability_with_the_drift(
+    judged: tuple[Problem, dict[Signal, Gap]],
+) -> None:
+    assert judged[1][Signal.FORCE].noise_floor == pytest.approx(5.0)
+
+
+def test_the_interval_holds_the_gap_and_is_no_point(
+    judged: tuple[Problem, dict[Signal, Gap]],
+) -> None:
+    for gap in judged[1].values():
+        low, high = gap.ci95_after
+        assert low < gap.after < high
+
+
+def test_the_interval_is_about_as_wide_as_chi_square_says(blank: Problem) -> None:
+    known = Point(np.zeros(len(blank.constants)))
+    plain = replace(blank, constants=())
+    found = gaps(plain, (Point(np.zeros(0)),) * 3, NOISES, np.random.default_rng(1))[
+        Signal.PRESSURE
+    ]
+    samples = by_signal(blank, known)[Signal.PRESSURE].size
+    low, high = found.ci95_after
+    # The standard deviation of a root mean square of n normal samples is s / root 2n.
+    wide = 2 * 1.96 * found.after / (2 * samples) ** 0.5
+    assert high - low == pytest.approx(wide, rel=0.5)
+
+
+def test_the_same_draws_give_the_same_interval(blank: Problem) -> None:
+    start = Point(np.zeros(len(blank.constants)))
+    one, other = (
+        gaps(blank, (start,) * 3, NOISES, np.random.default_rng(5)) for _ in range(2)
+    )
+    assert one == other
+
+
+def test_residuals_of_a_signal_come_in_the_order_of_time(blank: Problem) -> None:
+    start = Point(np.zeros(len(blank.constants)))
+    times = np.concatenate(
+        [
+            time
+            for block, time in zip(blank.blocks, blank.times, strict=True)
+            if block.signal is Signal.FORCE
+        ]
+    )
+    assert (np.diff(times) > 0).all()
+    assert by_signal(blank, start)[Signal.FORCE].size == times.size
+
+
+@pytest.mark.parametrize(
+    ("after", "confirms"), [(3.3, True), (4.2, True), (5.0, False)]
+)
+def test_a_crowd_of_effects_must_close_a_gap_closely(
+    after: float, *, confirms: bool
+) -> None:
+    # 85 % of 81 - 9 above the noise leaves a mean square of 19.8, that is 4.45 squared.
+    gap = _gap(9.0, after)
+    assert gap.confirms(3) is confirms
+    assert gap.confirms(2)

@@ -1,0 +1,145 @@
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.readings.recording import Kind
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.creep import Creep
+from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.model.effect import Effect
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    MODEL,
+    STEP,
+    Hidden,
+    Moment,
+    pinned,
+    recording,
+    rubbing,
+)
+
+
+def _creeping(moment: Moment) -> Array:
+    """A twentieth of the pull comes with a time constant of 20 s."""
+    pull = moment.pressure * moment.pull_area
+    late = pull.copy()
+    for index in range(1, pull.size):
+        late[index] = pull[index] + (late[index - 1] - pull[index]) * np.exp(-STEP / 20)
+    return 0.05 * (late - pull)
+
+
+def _problem(hidden: Hidden) -> Problem:
+    problem = problem_of(recording(hidden), MODEL, {})
+    return pinned(problem, "muscle.diameter", "zero.force")
+
+
+def _rival(problem: Problem, effect: Effect) -> Rival:
+    point = Point(np.zeros(len(problem.constants)), (effect,))
+    return Rival((Candidate(effect.name, effect),), polished(problem, point))
+
+
+def _proposed(hidden: Hidden, one: Effect, other: Effect) -> Proposal:
+    problem = _problem(hidden)
+    return proposal(problem, _rival(problem, one), _rival(problem, other))
+
+
+def _column(found: Proposal, name: str) -> Array:
+    values = found.plan[name]
+    assert isinstance(values, Sequence)
+    return np.array(values)
+
+
+@pytest.fixture(scope="module")
+def held() -> Proposal:
+    return _proposed(
+        _creeping, Creep(fast=0.0, medium=0.02, slow=0.02), ForceSensorDrift(rate=0.01)
+    )
+
+
+@pytest.fixture(scope="module")
+def looped() -> Proposal:
+    return _proposed(
+        rubbing(10.0), CoulombFriction(magnitude=10.0), PreslidingHysteresis(near=10.0)
+    )
+
+
+def test_creep_and_drift_are_told_apart_with_the_length_held(held: Proposal) -> None:
+    assert held.kind in (Kind.STEP, Kind.HOLD, Kind.ISOMETRIC)
+    assert np.ptp(_column(held, "contraction")) == 0.0
+    assert np.ptp(_column(held, "pressure_kPa")) > 50.0
+
+
+def test_dry_friction_and_memory_are_told_apart_by_minor_loops(
+    looped: Proposal,
+) -> None:
+    way = np.diff(_column(looped, "contraction"))
+    assert np.count_nonzero(np.diff(np.sign(way[way != 0]))) >= 3
+    assert np.ptp(_column(looped, "pressure_kPa")) == 0.0
+
+
+def test_it_says_what_it_separates(held: Proposal, looped: Proposal) -> None:
+    assert held.why == "separates creep from force sensor drift"
+    assert looped.why == "separates coulomb friction from presliding hysteresis"
+
+
+def test_what_it_promises_is_beyond_chance(held: Proposal, looped: Proposal) -> None:
+    assert min(held.separation, looped.separation) > 9.0
+
+
+def test_the_plan_can_be_run_on_the_rig(held: Proposal, looped: Proposal) -> None:
+    for found in (held, looped):
+        time, pressure, contraction = (
+            _column(found, name) for name in ("t_s", "pressure_kPa", "contraction")
+        )
+        assert time.size == pressure.size == contraction.size
+        assert time[0] == 0.0
+        assert (np.diff(time) > 0).all()
+        assert pressure.min() >= 0.0
+        # Within what the campaign has reached, but for its noise.
+        assert pressure.max() <= 505.0
+        assert contraction.max() <= 0.205
+
+
+def test_the_plan_says_how_long_the_muscle_is_and_comes_home(held: Proposal) -> None:
+    time, pressure, contraction = (
+        _column(held, name) for name in ("t_s", "pressure_kPa", "contraction")
+    )
+    assert (time[-1], pressure[-1], contraction.max()) == (20.0, 0.0, 0.0)
+    assert held.title.endswith("at rest length")
+
+
+def test_the_corners_of_the_plan_are_the_sweep(looped: Proposal) -> None:
+    time, way = _column(looped, "t_s"), _column(looped, "contraction")
+    speed = np.abs(np.diff(way) / np.diff(time))
+    assert time.size < 30
+    assert speed.max() < 0.05
+
+
+def test_what_no_sweep_tells_apart_is_left_to_a_reference() -> None:
+    problem = _problem(rubbing(10.0))
+    one = _rival(problem, ForceSensorBias(bias=1.0))
+    found = proposal(problem, one, one)
+    assert found.kind is None
+    assert (found.plan, found.separation) == ({}, 0.0)
+    assert "reference" in found.why
+
+
+def test_dwells_of_the_past_are_no_part_of_what_is_planned() -> None:
+    problem = _problem(rubbing(10.0))
+    rivals = (
+        _rival(problem, CoulombFriction(magnitude=10.0)),
+        _rival(problem, PreslidingHysteresis(near=10.0)),
+    )
+    dwelt = replace(problem, dwells=problem.blocks[:1])
+    assert proposal(dwelt, *rivals) == proposal(problem, *rivals)

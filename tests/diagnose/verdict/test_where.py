@@ -1,0 +1,117 @@
+from dataclasses import replace
+from math import erfc
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.verdict.where import LEVEL, PIECES, findings
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.sweep import noise
+
+STD, DRIFT = 3.0, 1.0
+
+
+@pytest.fixture(scope="module")
+def plain(blank: Problem) -> Problem:
+    return replace(blank, noises={Signal.FORCE: Noise(STD, 0.0, drift=DRIFT)})
+
+
+def _quiet(problem: Problem, seed: int = 0) -> list[Array]:
+    """Noise as loud as is said, drift and all."""
+    return [
+        noise(time.size, STD, 100 * seed + place)
+        for place, time in enumerate(problem.times)
+    ]
+
+
+def _off(problem: Problem, run: str, *biases: float) -> list[Array]:
+    """Residuals of which stretches of one sweep are off by so much, else nothing."""
+    residuals = [np.zeros(time.size) for time in problem.times]
+    (index,) = (
+        i for i, b in enumerate(problem.blocks) if problem.courses[b.course].run == run
+    )
+    for stretch, bias in zip(
+        np.array_split(residuals[index], PIECES), biases, strict=True
+    ):
+        stretch += bias
+    return residuals
+
+
+def test_noise_is_nowhere_wrong(plain: Problem) -> None:
+    assert sum(bool(findings(plain, _quiet(plain, seed))) for seed in range(10)) <= 1
+
+
+def test_a_stretch_that_is_off_is_named_with_its_bias(plain: Problem) -> None:
+    (found,) = findings(plain, _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0))
+    assert (found.run, found.signal, found.stage) == ("d", Signal.FORCE, "muscle")
+    assert found.bias == pytest.approx(20.0)
+    course = plain.courses[3]
+    assert course.run == "d"
+    low, high = found.region["time"]
+    share = (np.array([low, high]) - course.time[0]) / np.ptp(course.time)
+    np.testing.assert_allclose(share, [2 / 8, 3 / 8], atol=0.04)
+    assert found.region["pressure"] == pytest.approx((200e3, 200e3), rel=0.03)
+    # On the way there, so the contraction is 0.2 of twice the share of the time.
+    np.testing.assert_allclose(found.region["contraction"], 0.4 * share, atol=2e-3)
+    assert found.region["direction"] == (1.0, 1.0)
+
+
+def test_the_standard_error_holds_noise_and_drift(plain: Problem) -> None:
+    (found,) = findings(plain, _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0))
+    (samples,) = {
+        np.array_split(time, PIECES)[2].size
+        for time, block in zip(plain.times, plain.blocks, strict=True)
+        if plain.courses[block.course].run == "d"
+    }
+    assert found.std == pytest.approx((STD**2 / samples + DRIFT**2) ** 0.5)
+
+
+def test_neighbours_that_are_off_the_same_way_are_one(plain: Problem) -> None:
+    (found,) = findings(plain, _off(plain, "d", 0, 0, 20, 30, 0, 0, 0, 0))
+    assert 20.0 < found.bias < 30.0
+
+
+def test_neighbours_that_are_off_in_opposite_ways_are_two(plain: Problem) -> None:
+    found = findings(plain, _off(plain, "d", 0, 0, 20, -30, 0, 0, 0, 0))
+    assert [round(one.bias) for one in found] == [-30, 20]
+
+
+def test_what_is_apart_stays_apart(plain: Problem) -> None:
+    found = findings(plain, _off(plain, "d", 20, 0, 0, 0, 0, 0, 0, 20))
+    assert len(found) == 2
+
+
+def test_the_largest_comes_first(plain: Problem) -> None:
+    residuals = [
+        a + b
+        for a, b in zip(
+            _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0),
+            _off(plain, "b", 0, 0, 0, 0, -60, 0, 0, 0),
+            strict=True,
+        )
+    ]
+    assert [one.run for one in findings(plain, residuals)] == ["b", "d"]
+
+
+def test_chances_are_corrected_by_holm(plain: Problem) -> None:
+    # Alternating signs, so that none are joined; the first are clear, the last not.
+    biases = [12.0, -9.0, 6.0, -5.0, 4.5, -4.0, 3.5, -3.0]
+    found = findings(plain, _off(plain, "d", *biases))
+    cells = sum(min(PIECES, time.size // 4) for time in plain.times)
+    assert cells == PIECES * len(plain.blocks)
+    raw = []
+    for block, time in zip(plain.blocks, plain.times, strict=True):
+        if plain.courses[block.course].run == "d":
+            for stretch, bias in zip(np.array_split(time, PIECES), biases, strict=True):
+                std = (STD**2 / stretch.size + DRIFT**2) ** 0.5
+                raw.append(erfc(abs(bias) / std / 2**0.5))
+    corrected = [
+        max(min(1.0, p * (cells - rank)) for rank, p in enumerate(sorted(raw)[: k + 1]))
+        for k in range(PIECES)
+    ]
+    kept = [p for p in corrected if p <= LEVEL]
+    assert 0 < len(kept) < PIECES
+    assert sorted(one.p_value for one in found) == pytest.approx(kept)
