@@ -69,6 +69,8 @@ def _missed(course: Course, name: str) -> Mask:
     if known is None or known.variance <= 0:
         return np.zeros(len(course), dtype=bool)
     off = np.nan_to_num(course.column(name) - known.value)
+    # A sample in the middle of a step is left out as such, and not those around it.
+    off[_transients(course)] = 0.0
     mean = uniform_filter1d(off, NEIGHBOURS, mode="nearest")
     sure = OFF * (known.variance / NEIGHBOURS) ** 0.5
     least = CORNER * float(np.max(np.abs(known.value)))
