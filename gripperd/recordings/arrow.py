@@ -1,4 +1,4 @@
-"""Columns of an Arrow table as NumPy arrays."""
+"""Bytes that Arrow reads, and columns of its tables as NumPy arrays."""
 
 from collections.abc import Collection, Mapping
 
@@ -8,6 +8,18 @@ import pyarrow.compute as pc
 
 from gripperd.model.track import Array
 from gripperd.recordings.table import Words
+
+
+def stream(content: bytes) -> pa.BufferReader:
+    """Give content to Arrow, in memory of its own.
+
+    A worker thread of Arrow may let go of what it read when the interpreter is already
+    ending; of Python's memory it cannot then, and the process aborts (apache/arrow
+    issue 34314).
+    """
+    memory = pa.allocate_buffer(len(content))
+    memoryview(memory).cast("B")[:] = content
+    return pa.BufferReader(memory)
 
 
 def columns_of(

@@ -13,7 +13,7 @@ import pyarrow.csv
 
 from gripperd.config.complaint import printable
 from gripperd.errors import InputError
-from gripperd.recordings.arrow import columns_of
+from gripperd.recordings.arrow import columns_of, stream
 from gripperd.recordings.table import Table
 
 EMPTY = ("", "nan", "NaN", "NAN", "NA", "N/A", "null", "NULL", "None")
@@ -79,7 +79,7 @@ class CsvFile:
         header, _ = next(_lines(self.content))
         try:
             table = pyarrow.csv.read_csv(
-                pa.BufferReader(self.content),
+                stream(self.content),
                 pyarrow.csv.ReadOptions(column_names=self.names, skip_rows=header),
                 convert_options=pyarrow.csv.ConvertOptions(
                     column_types=kinds, include_columns=kinds, null_values=EMPTY

@@ -9,7 +9,7 @@ import pyarrow.types
 
 from gripperd.config.complaint import printable
 from gripperd.errors import InputError
-from gripperd.recordings.arrow import columns_of
+from gripperd.recordings.arrow import columns_of, stream
 from gripperd.recordings.table import Table
 
 MAGIC = b"PAR1"
@@ -36,7 +36,7 @@ class ParquetFile:
             The file is damaged, or has too many rows.
         """
         try:
-            meta = pyarrow.parquet.read_metadata(pa.BufferReader(content))
+            meta = pyarrow.parquet.read_metadata(stream(content))
             names = tuple(meta.schema.to_arrow_schema().names)
         except (pa.ArrowException, OSError) as broken:
             raise _damaged(source, broken) from None
@@ -56,7 +56,7 @@ class ParquetFile:
         wanted = [name for name in (*words, *numbers) if name in self.names]
         try:
             table = pyarrow.parquet.read_table(
-                pa.BufferReader(self.content), columns=wanted
+                stream(self.content), columns=wanted
             )
         except (pa.ArrowException, OSError) as broken:
             raise _damaged(self.source, broken) from None
