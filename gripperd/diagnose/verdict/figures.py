@@ -5,7 +5,7 @@ from math import floor, inf, log10
 from gripperd.diagnose.verdict.named import Estimate
 
 DIGITS = 6
-"""Decimal places that no number is told beyond."""
+"""Significant digits that no number is told beyond."""
 UNLIKELY = 1e-99
 """Chance below which its size says nothing any more. [-]"""
 
@@ -18,7 +18,8 @@ def fixed(value: float, std: float) -> str:
     """
     if not 0 < std < inf:
         return f"{value:.4g}"
-    places = min(1 - floor(log10(std)), DIGITS)
+    leading = floor(log10(max(abs(value), std)))
+    places = min(1 - floor(log10(std)), DIGITS - 1 - leading)
     # Adding 0 turns what would read as -0 into 0.
     return f"{round(value, places) + 0.0:.{max(places, 0)}f}"
 
