@@ -54,6 +54,31 @@ def test_what_has_rivals_asks_for_no_remedy(creep: Diagnosis) -> None:
     )
 
 
+def test_of_tolerances_too_tight_no_constant_is_sure_alone(creep: Diagnosis) -> None:
+    constants = len(creep.found.problem.constants)
+    best = creep.contest.best
+    point = replace(creep.explained, looser=(3.0,) * constants)
+    best = replace(best, fit=replace(best.fit, point=point))
+    rival, sure = diameter("tapered_ends"), diameter()
+    tight = replace(
+        creep,
+        verdict=Verdict.AMBIGUOUS,
+        named=(rival, sure),
+        contest=replace(creep.contest, best=best),
+    )
+    assert statement(tight, sure) == (
+        "Perhaps the diameter is 18.314 ± 0.094 mm, not 20 mm, with the others."
+    )
+    assert summary(tight).startswith(
+        "The model is off, and tolerances tighter than its parts keep, and this"
+        " recording cannot tell a wrong diameter from tapered ends;"
+    )
+    assert statement(replace(tight, named=(sure,)), sure) == (
+        "The diameter is 18.314 ± 0.094 mm, not 20 mm; correct the model and its"
+        " tolerance."
+    )
+
+
 def test_what_is_not_established_is_not_claimed(creep: Diagnosis) -> None:
     unexplained = replace(creep, verdict=Verdict.UNEXPLAINED)
     entry = replace(creep.named[0], size=12.04)

@@ -72,6 +72,7 @@ def draw_case(
         tolerance=(0.005 if tight else usual) if stated else None,
         drifts=kind == "drift" or (kind != "none" and wanders),
         tells_noise=bool(random.random() < 0.5),
+        # Of a stream of its own: every other draw of a seed stays as it was.
         rounded=bool(random.spawn(1)[0].random() < 1 / 3),
     )
 

@@ -17,6 +17,7 @@ from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
 from gripperd.report import page
+from gripperd.report.rows import overruled
 from gripperd.report.trace import traces
 from gripperd.reproduce.extra import not_installed
 from tests.demonstration import example
@@ -187,7 +188,8 @@ def test_what_adds_nothing_is_no_explanation_of_its_own(creep: Diagnosis) -> Non
     other = next(one for one in creep.found.rivals if "creep" not in one.names)
     more = replace(best, candidates=(*best.candidates, *other.candidates))
     name = " + ".join(sorted(map(public, more.names)))
-    for loss, is_told in ((0.0, False), (4.0, True)):
+    # Half the cost is evidence; a twentieth of a nat is nothing.
+    for loss, is_told in ((0.0, False), (0.08, False), (4.0, True), (-4.0, True)):
         rival = at_cost(more, best.fit.cost + loss)
         contest = replace(creep.contest, rivals=((rival,),))
         found = replace(creep.found, rivals=())
@@ -202,6 +204,17 @@ def test_it_says_why_more_evidence_may_be_passed_over(
     ahead = at_cost(creep.found.rivals[0], creep.contest.best.fit.cost - 1e3)
     contest = replace(creep.contest, rivals=((ahead,),))
     assert "ahead by evidence alone" in written(replace(creep, contest=contest))
+
+
+@pytest.mark.parametrize(("ahead", "said"), [(0.05, False), (0.2, True)])
+def test_a_tenth_of_a_nat_is_no_lead(
+    creep: Diagnosis, ahead: float, said: bool
+) -> None:
+    best = creep.contest.best
+    contest = replace(
+        creep.contest, rivals=((at_cost(best, best.fit.cost - 2 * ahead),),)
+    )
+    assert overruled(replace(creep, contest=contest)) is said
 
 
 def test_a_correction_has_a_picture_and_is_called_no_physics(creep: Diagnosis) -> None:

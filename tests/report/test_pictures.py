@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -30,6 +32,19 @@ def test_the_clock_of_a_picture_is_that_of_the_recording(
     told = [label.get_text() for label in axes.get_xticklabels()]
     assert len(told) > 5
     assert set(told) <= begins
+
+
+def test_a_file_may_begin_at_any_time(
+    creep: Diagnosis, found: tuple[Trace, ...]
+) -> None:
+    train = creep.split.train
+    late = [
+        replace(one, time=one.time + 1e6, start=one.start + 1e6)
+        for one in train.courses
+    ]
+    split = replace(creep.split, train=replace(train, courses=late))
+    told = traces(replace(creep, split=split), Signal.FORCE)
+    assert [one.start for one in told] == pytest.approx([one.start for one in found])
 
 
 def test_no_two_marks_are_nearer_than_they_may_be() -> None:

@@ -16,7 +16,7 @@ SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature"
 LATE = (1e-3, 0.03, 0.1, 0.3, 1.0)
 """Lags tried between command and pressure. [s]"""
 STEP = 0.06
-"""Share of the range of the command from which one sample is a step. [-]"""
+"""Share of a range by which a command moves in one sample where it steps. [-]"""
 QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4

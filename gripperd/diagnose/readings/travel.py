@@ -63,7 +63,8 @@ def _travel(way: Array, least: float, begun: float) -> Array:
             plateau = i - 1
             while abs(way[plateau] - extreme) > begun:
                 plateau -= 1
-            # A round turn leaves with the square of the time, and as it came.
+            # A round turn leaves with the square of the time, and as it came; the first
+            # leg came from nowhere, it begins with its plateau.
             root = np.sqrt(begun / least)
             before = (i - plateau - 1) * root / (1 - root)
             came = 0 if sign != 0.0 else plateau

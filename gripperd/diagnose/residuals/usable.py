@@ -7,13 +7,11 @@ from scipy.ndimage import uniform_filter1d
 
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.level import STEP
 from gripperd.diagnose.readings.travel import STUCK, TRAVEL, leaning, noticed, travel
 from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-
-TRANSIENT = 0.06
-"""A command that moves by more than this share of the span in one sample is a step."""
 
 NEIGHBOURS = 5
 OFF = 3.0
@@ -145,9 +143,9 @@ def _transients(course: Course) -> Mask:
     pressure = course.level("pressure")
     jump = np.abs(np.diff(pressure, prepend=pressure[0]))
     top = max(float(np.nanmax(np.abs(pressure))), 1.0)
-    near = jump > TRANSIENT * top
+    near = jump > STEP * top
     current = course.column("current")
     if np.isfinite(current).all():
         step = np.abs(np.diff(current, prepend=current[0]))
-        near |= step > TRANSIENT * float(np.max(np.abs(current)))
+        near |= step > STEP * float(np.max(np.abs(current)))
     return _widened(near, 2)
