@@ -55,9 +55,7 @@ class ParquetFile:
         """
         wanted = [name for name in (*words, *numbers) if name in self.names]
         try:
-            table = pyarrow.parquet.read_table(
-                stream(self.content), columns=wanted
-            )
+            table = pyarrow.parquet.read_table(stream(self.content), columns=wanted)
         except (pa.ArrowException, OSError) as broken:
             raise _damaged(self.source, broken) from None
         for name in wanted:

@@ -46,6 +46,19 @@ def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None
     assert np.std(left) < 0.5 * 2e3
 
 
+def test_a_sample_that_a_step_cannot_have_caught_counts() -> None:
+    # Fifty samples a second of a regulator that takes 60 ms: it is followed all the way.
+    command = np.repeat([100e3, 400e3, 200e3, 450e3], 100)
+    since = np.minimum(np.arange(400) % 100 + 1.0, 3.0) / 3.0
+    before = np.append(np.full(100, 100e3), command[:-100])
+    true = before + since * (command - before)
+    told = true + noise(400, 2e3)
+    current = 0.004 + 0.016 * command / 500e3
+    (course,) = cut(run(time=np.arange(400) * 0.02, current=current, pressure=told))
+    leaps = np.array([100, 200, 300])
+    assert course.level("pressure")[leaps] == pytest.approx(true[leaps], abs=50e3)
+
+
 def _pulling(seed: int) -> tuple[Course, Array]:
     """Pressure to and fro in five strokes at a fixed length, and the force it makes."""
     way = np.abs((np.arange(SIZE) / 80.0) % 2.0 - 1.0)

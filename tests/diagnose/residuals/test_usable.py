@@ -90,7 +90,7 @@ def test_jaws_that_hold_on_say_nothing_of_the_force_until_they_follow_the_pressu
             id="an overshoot turns no load",
         ),
         pytest.param(
-            np.append(0.0, np.full(400, 60.0)), np.linspace(50e3, 500e3, 401),
+            np.append(np.full(400, 60.0), 0.0), np.linspace(50e3, 500e3, 401),
             id="the first rise is no turn",
         ),
     ],
