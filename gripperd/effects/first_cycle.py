@@ -19,7 +19,7 @@ from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
 REFERENCE = 100e3
-"""Fall of pressure that the softening refers to. [Pa]"""
+"""Pressure that the softening refers to. [Pa]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +27,10 @@ class FirstCycle(InMuscle):
     r"""The pull of a first inflation differs by a share and by a force.
 
     .. math:: F = F_0 + w \left(1 - s \frac{p_m - p}{100\,\mathrm{kPa}}\right)^+
-              (a F_0 + b)
+              \left(a F_0 + b + c F_0 \frac{p_m}{100\,\mathrm{kPa}}\right)
 
-    with the highest pressure so far, p_m: rubber that has been there is soft already.
+    with the highest pressure so far, p_m: rubber that has been there is soft already,
+    and where it was most strained the curve of virgin rubber meets that of soft rubber.
     What is first depends on what undoes the softening: with ``after = 0`` it never
     comes back, and ``w = 1`` in the first inflation of the recording alone; with
     ``after = 1`` a pause is enough, and ``w = 1`` in the first sweep of every row of
@@ -46,10 +47,12 @@ class FirstCycle(InMuscle):
     confused_with: ClassVar[tuple[str, ...]] = ("fatigue", "creep")
     remedy: ClassVar[str] = "inflate the muscle a few times before work"
 
-    gain: float = amplitude(unit=None, scale=0.05, low=-0.5, high=0.5)
+    gain: float = amplitude(unit=None, scale=0.05, low=-1.0, high=1.0)
     """Share of the pull that the first has on top, a. [-]"""
     offset: float = amplitude(unit="N", scale=10.0, low=-1e3, high=1e3)
     """Force that the first has on top, b. [N]"""
+    growth: float = amplitude(unit=None, scale=0.01, low=-0.3, high=0.3)
+    """Change of that share for each 100 kPa reached, c. [-]"""
     after: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Whether the rest before a row of repeats makes its first sweep a first. [-]"""
     softened: float = shape(unit=None, starts=(0.0, 2.0), low=0.0, high=20.0)
@@ -68,4 +71,5 @@ class FirstCycle(InMuscle):
         left = np.maximum(1 - self.softened * fallen, 0.0)
         ever = np.where(track.cycle < 1, 1 - self.after, 0.0)
         row = np.where(track.repeat == 0, self.after, 0.0)
-        return value + (ever + row) * left * (self.gain * value + self.offset)
+        share = self.gain + self.growth * reached / REFERENCE
+        return value + (ever + row) * left * (share * value + self.offset)

@@ -43,6 +43,17 @@ def test_rubber_that_has_been_at_a_pressure_is_soft_there(muscle: Muscle) -> Non
     assert found == pytest.approx(expected)
 
 
+def test_where_it_was_most_strained_virgin_rubber_is_as_soft_as_any(
+    muscle: Muscle,
+) -> None:
+    pressure = np.array([0.0, 1e5, 2.5e5, 4e5, 5e5, 6e5, 1e5])
+    track = track_of(muscle, pressure=pressure, cycle=0.0)
+    effect = FirstCycle(0.3, growth=-0.05)
+    found = effect.along(np.full(7, 200.0), track, effect.rest())
+    expected = [260.0, 250.0, 235.0, 220.0, 210.0, 200.0, 200.0]
+    assert found == pytest.approx(expected)
+
+
 def test_a_prediction_is_that_of_a_muscle_inflated_before(muscle: Muscle) -> None:
     static = StaticMuscle(muscle, (FirstCycle(0.15, 5.0),))
     assert static.force(3e5, 0.1) == StaticMuscle(muscle).force(3e5, 0.1)

@@ -47,7 +47,7 @@ def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None
 
 
 def test_a_sample_that_a_step_cannot_have_caught_counts() -> None:
-    # Fifty samples a second of a regulator that takes 60 ms: it is followed all the way.
+    # Fifty samples a second of a regulator that takes 60 ms: followed all the way.
     command = np.repeat([100e3, 400e3, 200e3, 450e3], 100)
     since = np.minimum(np.arange(400) % 100 + 1.0, 3.0) / 3.0
     before = np.append(np.full(100, 100e3), command[:-100])
