@@ -9,11 +9,13 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
-from gripperd.model.prandtl import at_rest, carried
+from gripperd.model.prandtl import at_rest, begin_at, carried
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
 
@@ -51,6 +53,10 @@ class PressureHysteresis(InMuscle):
     leverage: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """How far the loop shrinks with the ideal pull, c. [-]"""
 
+    begun: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Load of the springs where a record begins, of what a way there from no pressure
+    loads them with. [-]"""
+
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip; contracting is inflating. [N]."""
         total = self.near + self.middle + self.far
@@ -63,6 +69,8 @@ class PressureHysteresis(InMuscle):
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
         forces = (self.near, self.middle, self.far)
+        if np.isnan(memory).all() and track.pressure.size:
+            begin_at(track.pressure[0], self.pressure, self.begun, memory)
         lost = carried(track.pressure, self.pressure, forces, memory)
         return value - lost * self._lever(track.contraction, track.muscle)
 

@@ -28,6 +28,24 @@ def at_rest() -> Array:
     return begin(3)
 
 
+def begin_at(signal: float, radius: float, load: float, memory: Array) -> None:
+    """Load springs that have no past, as a share of what a way from 0 would have.
+
+    Parameters
+    ----------
+    signal
+        Where the path begins.
+    radius
+        As :func:`carried` has it.
+    load
+        The share. [0..1]
+    memory
+        As :func:`at_rest` gave it; it is set.
+    """
+    reaches = radius * SPREAD ** np.arange(-1.0, 2.0)
+    memory[:] = signal - load * np.minimum(signal, reaches)
+
+
 def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Array:
     r"""Force that the springs carry along a path, however fast it is run.
 

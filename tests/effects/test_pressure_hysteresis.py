@@ -1,5 +1,7 @@
 """Memory of pressure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -37,6 +39,28 @@ def test_it_bends_at_a_third_one_and_three_radii(muscle: Muscle) -> None:
     expected = [0, 4 + 8 / 3 + 6 / 9, 4 + 8 + 6 / 3, 18, 18]
     reached = force(muscle, HYSTERESIS, pressure=pressure)
     assert -reached == pytest.approx(expected)
+
+
+def test_a_record_may_begin_as_a_way_from_no_pressure_left_it(muscle: Muscle) -> None:
+    whole = force(muscle, HYSTERESIS)
+    begun = replace(HYSTERESIS, begun=1.0)
+    for start in (4, 20, 60):
+        cut = TRIANGLE[start:]
+        assert force(muscle, begun, pressure=cut) == pytest.approx(whole[start:])
+    half = force(muscle, replace(HYSTERESIS, begun=0.5), pressure=TRIANGLE[20:])
+    assert half[0] == pytest.approx(whole[20] / 2)
+    assert half[-1] == pytest.approx(whole[-1])
+
+
+def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
+    begun = replace(HYSTERESIS, begun=1.0)
+    track = track_of(muscle, pressure=TRIANGLE, contraction=0.0)
+    memory = begun.rest()
+    begun.along(np.zeros_like(TRIANGLE), track, memory)
+    left = memory.copy()
+    again = track_of(muscle, pressure=TRIANGLE[-1:], contraction=0.0)
+    begun.along(np.zeros(1), again, memory)
+    assert memory.tolist() == left.tolist()
 
 
 def test_speed_makes_no_difference(muscle: Muscle) -> None:
