@@ -11,16 +11,21 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InGripper
 from gripperd.model.memory import begin, play
-from gripperd.model.parameter import amplitude
+from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
+
+AT_REST = 0.01
+"""Contraction from which a way there was one of closing jaws. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
 class LinkageBacklash(InGripper):
-    """Play of half the width on the opening; it begins in the middle of the gap."""
+    """Play of half the width on the opening."""
 
     name: ClassVar[str] = "linkage_backlash"
     needs: ClassVar[frozenset[str]] = frozenset({"opening", "contraction"})
@@ -33,6 +38,9 @@ class LinkageBacklash(InGripper):
 
     width: float = amplitude(unit="mm", scale=0.3e-3, low=0.0, high=20e-3)
     """Opening lost at a reversal. [m]"""
+    begun: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Where in the gap a record begins: 0 in its middle, 1 on the side to which the way
+    there went, closing to a contraction or opening to rest length. [-]"""
 
     @property
     def signal(self) -> Signal:
@@ -45,4 +53,7 @@ class LinkageBacklash(InGripper):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Opening behind the gap. [m]."""
+        if np.isnan(memory[0]) and value.size:
+            side = min(2 * track.contraction[0] / AT_REST - 1, 1.0)
+            memory[0] = value[0] + self.begun * max(side, -1.0) * self.width / 2
         return play(value, self.width / 2, memory)

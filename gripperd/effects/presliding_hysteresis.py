@@ -10,11 +10,13 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
-from gripperd.model.prandtl import at_rest, carried
+from gripperd.model.prandtl import at_rest, begin_at, carried
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -56,6 +58,10 @@ class PreslidingHysteresis(InMuscle):
     hysteresis any more but a jump, see ``coulomb_friction``.
     """
 
+    begun: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Load of the springs where a record begins, of what a way there from rest length
+    loads them with. [-]"""
+
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip, against the travel. [N]."""
         return -at.direction * (self.near + self.middle + self.far)
@@ -66,5 +72,7 @@ class PreslidingHysteresis(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
+        if np.isnan(memory).all() and track.contraction.size:
+            begin_at(track.contraction[0], self.contraction, self.begun, memory)
         forces = (self.near, self.middle, self.far)
         return value - carried(track.contraction, self.contraction, forces, memory)

@@ -43,7 +43,7 @@ def begin_at(signal: float, radius: float, load: float, memory: Array) -> None:
         As :func:`at_rest` gave it; it is set.
     """
     reaches = radius * SPREAD ** np.arange(-1.0, 2.0)
-    memory[:] = signal - load * np.minimum(signal, reaches)
+    memory[:] = signal - load * np.clip(signal, -reaches, reaches)
 
 
 def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Array:

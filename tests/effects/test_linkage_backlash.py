@@ -18,6 +18,24 @@ def test_the_jaws_stand_still_until_the_play_is_taken_up(muscle: Muscle) -> None
     assert found == pytest.approx(expected)
 
 
+def test_a_record_may_begin_on_the_side_where_the_way_there_left_it(
+    muscle: Muscle,
+) -> None:
+    # Opening to rest length leaves the jaws closer, closing leaves them further apart.
+    effect = LinkageBacklash(width=WIDTH, begun=1.0)
+    for contraction, side in ((0.0, -1), (0.005, 0), (0.01, 1), (0.2, 1)):
+        track = track_of(muscle, contraction=np.full(3, contraction))
+        found = effect.along(np.full(3, 0.05), track, effect.rest())
+        assert found == pytest.approx(np.full(3, 0.05 + side * WIDTH / 2))
+
+
+def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
+    effect = LinkageBacklash(width=WIDTH, begun=1.0)
+    memory = np.array([0.05])
+    track = track_of(muscle, contraction=np.full(3, 0.2))
+    assert (effect.along(np.full(3, 0.05), track, memory) == 0.05).all()
+
+
 def test_nothing_of_it_stays_once_settled() -> None:
     effect = LinkageBacklash(width=WIDTH)
     assert effect.widening(50.0, 400.0) == 0.0

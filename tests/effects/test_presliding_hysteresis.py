@@ -1,5 +1,6 @@
 """Memory of contraction."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -33,6 +34,16 @@ def force(
 
 def test_before_any_travel_there_is_no_force(muscle: Muscle) -> None:
     assert force(muscle, np.full(5, 0.1)).tolist() == [0.0] * 5
+
+
+def test_a_record_may_begin_as_the_way_there_left_it(muscle: Muscle) -> None:
+    whole = path(0.0, 0.1, 0.05)
+    begun = replace(HYSTERESIS, begun=1.0)
+    for start in (4, 30, 150):
+        cut = force(muscle, whole[start:], begun)
+        assert cut == pytest.approx(force(muscle, whole)[start:])
+    stretched = force(muscle, np.full(2, -0.03), begun)
+    assert stretched == pytest.approx([ALL, ALL])
 
 
 def test_a_first_loading_bends_at_a_third_one_and_three_radii(muscle: Muscle) -> None:
