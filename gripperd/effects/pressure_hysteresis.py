@@ -70,7 +70,9 @@ class PressureHysteresis(InMuscle):
         """Take what the springs carry. [N]."""
         forces = (self.near, self.middle, self.far)
         if np.isnan(memory).all() and track.pressure.size:
-            begin_at(track.pressure[0], self.pressure, self.begun, memory)
+            # A transmitter may read less than nothing; a vented muscle loads nothing.
+            load = self.begun if track.pressure[0] > 0 else 0.0
+            begin_at(track.pressure[0], self.pressure, load, memory)
         lost = carried(track.pressure, self.pressure, forces, memory)
         return value - lost * self._lever(track.contraction, track.muscle)
 

@@ -50,6 +50,8 @@ def test_a_record_may_begin_as_a_way_from_no_pressure_left_it(muscle: Muscle) ->
     half = force(muscle, replace(HYSTERESIS, begun=0.5), pressure=TRIANGLE[20:])
     assert half[0] == pytest.approx(whole[20] / 2)
     assert half[-1] == pytest.approx(whole[-1])
+    vented = np.full(2, -4e3)
+    assert force(muscle, begun, pressure=vented).tolist() == [0.0, 0.0]
 
 
 def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
