@@ -15,6 +15,12 @@ from gripperd.model.track import Array
 
 STIFFNESSES = 10.0 ** np.arange(-8.0, 5.0)
 """Spectral densities of the slope tried, in units of ``noise² / s³``."""
+LEAP = 5.0
+"""Standard deviations from what was foreseen at which a column may have leapt. [-]"""
+RARE = 5.0
+"""What a leap costs: there is none in 149 samples of 150. [nat]"""
+SELDOM = 0.05
+"""Share of leaps above which a column does not leap, it is quieter than told. [-]"""
 
 
 class Smooth(NamedTuple):
@@ -27,9 +33,17 @@ class Smooth(NamedTuple):
     """Log density of the column, up to a constant. [nat]"""
     variance: float = 0.0
     """Of the noise that was taken off, as :func:`smooth` was told."""
+    spread: float = 0.0
+    """Standard deviation of the value, as the past alone has it."""
 
 
-def smooth(time: Array, column: Array, variance: float, supple: float = 1.0) -> Smooth:
+def smooth(
+    time: Array,
+    column: Array,
+    variance: float,
+    supple: float = 1.0,
+    leap: float = np.inf,
+) -> Smooth:
     """Take the noise off one column of one run.
 
     Parameters
@@ -43,6 +57,8 @@ def smooth(time: Array, column: Array, variance: float, supple: float = 1.0) -> 
         ``(1 + rho) / (1 - rho)``. The trend is as stiff as its likelihood allows.
     supple
         How much less stiff it shall be, so that corners stay sharp.
+    leap
+        Standard deviations from which it may leap, and be as stiff on either side.
     """
     if variance <= 0 or column.size < 3 or not np.isfinite(column).any():
         rate = np.gradient(column, time) if column.size > 1 else np.zeros_like(column)
@@ -50,23 +66,30 @@ def smooth(time: Array, column: Array, variance: float, supple: float = 1.0) -> 
     scale = np.sqrt(variance)
     scaled = (column - np.nanmean(column)) / scale
     step = np.diff(time, prepend=time[0])
-    likelihoods = [compiled(_filter)(scaled, step, q)[0] for q in STIFFNESSES]
+    likelihoods = [compiled(_filter)(scaled, step, q, leap)[0] for q in STIFFNESSES]
     best = STIFFNESSES[int(np.argmax(likelihoods))] * supple
-    _, states, spreads = compiled(_filter)(scaled, step, best)
-    level, slope = compiled(_smoother)(states, spreads, step, best)
+    _, states, spreads, leaps = compiled(_filter)(scaled, step, best, leap)
+    level, slope = compiled(_smoother)(states, spreads, step, best, leaps)
     return Smooth(
         level * scale + np.nanmean(column),
         slope * scale,
-        max(likelihoods),
+        max(likelihoods) if np.mean(leaps > 0) < SELDOM else -np.inf,
         variance,
+        float(np.sqrt(spreads[-1, 0])) * float(scale),
     )
 
 
-def _filter(column: Array, step: Array, q: float) -> tuple[float, Array, Array]:
-    """Kalman filter: log likelihood, filtered states (n, 2), covariances (n, 3)."""
+def _filter(
+    column: Array, step: Array, q: float, leap: float
+) -> tuple[float, Array, Array, Array]:
+    """Kalman filter: log likelihood, filtered states (n, 2), covariances (n, 3).
+
+    And what leaps added to the variance of the level, (n,).
+    """
     n = column.size
     states = np.empty((n, 2))
     spreads = np.empty((n, 3))
+    leaps = np.zeros(n)
     level, slope = 0.0, 0.0
     a, b, c = 1e6, 0.0, 1e6
     likelihood = 0.0
@@ -78,6 +101,10 @@ def _filter(column: Array, step: Array, q: float) -> tuple[float, Array, Array]:
         c = c + q * dt
         if np.isfinite(column[i]):
             innovation = column[i] - level
+            if i > 0 and innovation * innovation > leap * leap * (a + 1.0):
+                leaps[i] = innovation * innovation
+                likelihood -= RARE
+                a += leaps[i]
             variance = a + 1.0
             gain, drag = a / variance, b / variance
             level += gain * innovation
@@ -88,11 +115,11 @@ def _filter(column: Array, step: Array, q: float) -> tuple[float, Array, Array]:
             likelihood -= 0.5 * (np.log(variance) + innovation * innovation / variance)
         states[i, 0], states[i, 1] = level, slope
         spreads[i, 0], spreads[i, 1], spreads[i, 2] = a, b, c
-    return likelihood, states, spreads
+    return likelihood, states, spreads, leaps
 
 
 def _smoother(
-    states: Array, spreads: Array, step: Array, q: float
+    states: Array, spreads: Array, step: Array, q: float, leaps: Array
 ) -> tuple[Array, Array]:
     """Rauch-Tung-Striebel pass backwards: level and slope."""
     n = step.size
@@ -102,7 +129,7 @@ def _smoother(
         dt = step[i + 1]
         a, b, c = spreads[i, 0], spreads[i, 1], spreads[i, 2]
         # Predicted covariance of the next state, and the gain P F' / predicted.
-        pa = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3
+        pa = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3 + leaps[i + 1]
         pb = b + dt * c + q * dt * dt / 2
         pc = c + q * dt
         determinant = pa * pc - pb * pb

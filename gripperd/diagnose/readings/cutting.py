@@ -6,13 +6,12 @@ from itertools import pairwise
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
-from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
-from gripperd.diagnose.readings.travel import STILL, TRAVEL, noticed, travel
+from gripperd.diagnose.readings.travel import contracting
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
@@ -71,10 +70,12 @@ def _course(
 ) -> Course:
     time = sweep.columns["time"]
     smoothed = levels(sweep, noises)
+    known = smoothed.get("contraction")
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat),
-        _directions(smoothed.get("contraction"), time), _stillness(sweep), start=start,
+        np.zeros_like(time) if known is None else contracting(known),
+        _stillness(sweep), start=start,
     )  # fmt: skip
 
 
@@ -99,18 +100,6 @@ def _pieces(run: Run) -> Iterator[Run]:
         name = run.name if len(cuts) == 2 else f"{run.name}#{index + 1}"
         columns = {key: value[start:end] for key, value in run.columns.items()}
         yield Run(name, columns, run.kind)
-
-
-def _directions(contraction: Smooth | None, time: Array) -> Array:
-    """Direction of travel, sample by sample, kept at rest.
-
-    A travel counts once it has gone :data:`TRAVEL`, so noise does not turn it round.
-    """
-    if contraction is None or not np.isfinite(contraction.value).all():
-        return np.zeros_like(time)
-    if np.ptp(contraction.value) < STILL:
-        return np.zeros_like(time)
-    return travel(contraction.value, TRAVEL, noticed(contraction.variance**0.5))
 
 
 def _stillness(sweep: Run) -> Array:

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.optimize import isotonic_regression
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.smoothing import Smooth, smooth
+from gripperd.diagnose.noise.smoothing import LEAP, Smooth, smooth
 from gripperd.diagnose.readings.recording import Run
-from gripperd.diagnose.readings.travel import STILL, TRAVEL, leaning, noticed, travel
+from gripperd.diagnose.readings.travel import contracting, leaning
 from gripperd.model.memory import begin, lag
 
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
@@ -50,6 +50,8 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
         found["contraction"] = _steady(found["contraction"])
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(sweep, found["pressure"], noises)
+    elif "pressure" in found:
+        found["pressure"] = _leaping(sweep, found["pressure"])
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -71,10 +73,7 @@ def _steady(known: Smooth) -> Smooth:
     value = known.value
     if not np.isfinite(value).all():
         return known
-    still = np.ptp(value) < STILL
-    signs = (
-        0.0 * value if still else travel(value, TRAVEL, noticed(known.variance**0.5))
-    )
+    signs = contracting(known)
     cuts = [0, *(np.flatnonzero(np.diff(signs)) + 1), value.size]
     out = value.copy()
     for start, end in pairwise(cuts):
@@ -86,6 +85,16 @@ def _steady(known: Smooth) -> Smooth:
     if not signs.any():
         return known._replace(value=out, rate=0.0 * value)
     return known._replace(value=out)
+
+
+def _leaping(sweep: Run, plain: Smooth) -> Smooth:
+    """Pressure that may leap, where nothing tells of its steps, if that is likelier.
+
+    A trend that is supple enough for a step leaves the noise in the rests beside it.
+    """
+    pressure, time = sweep.columns["pressure"], sweep.columns["time"]
+    leapt = smooth(time, pressure, plain.variance, leap=LEAP)
+    return leapt if leapt.likelihood > plain.likelihood else plain
 
 
 def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:

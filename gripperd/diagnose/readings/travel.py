@@ -2,18 +2,22 @@
 
 import numpy as np
 
+from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.model.compiled import compiled
 from gripperd.model.memory import begin, stop
 from gripperd.model.track import Array
 
 TRAVEL = 1.5e-3
 """Contraction that must be undone before a travel counts as reversed. [-]"""
-NOTICED = (0.2 * TRAVEL, 0.4 * TRAVEL)
+SURE = 6.0
+"""The same in standard deviations of a contraction without its noise: of some thousand
+samples at rest none goes that far, nor does a trend beside a corner. [-]"""
+NOTICED = (0.2, 0.4)
 """The least and the most of it that tells when the way back began. [-]"""
 CLEAR = 1.5
 """The same in sigma of the noise that was taken off. [-]"""
-STILL = 4e-3
-"""A sweep within this range of contraction has no travel. [-]"""
+STILL = 2.7
+"""A sweep within a range of so many times that has no travel. [-]"""
 STUCK = 0.06
 """Half the way back, as a share of the range of the load, in which joints stick. [-]"""
 STEADY = 0.01
@@ -31,9 +35,23 @@ def leaning(load: Array) -> Array:
     return stop(load, radius, begin()) / radius
 
 
-def noticed(noise: float) -> float:
+def reversal(spread: float) -> float:
+    """Way back of a contraction so well known (one sigma) that reverses it. [-]."""
+    return max(TRAVEL, SURE * spread)
+
+
+def noticed(noise: float, least: float = TRAVEL) -> float:
     """Way back of a contraction that is told from noise (one sigma). [-]."""
-    return float(np.clip(CLEAR * noise, *NOTICED))
+    low, high = NOTICED
+    return float(np.clip(CLEAR * noise, low * least, high * least))
+
+
+def contracting(known: Smooth) -> Array:
+    """Sign of travel of a contraction; 0 throughout if there is none, or unknown."""
+    least = reversal(known.spread)
+    if not np.isfinite(known.value).all() or np.ptp(known.value) < STILL * least:
+        return np.zeros_like(known.value)
+    return travel(known.value, least, noticed(known.variance**0.5, least))
 
 
 def travel(way: Array, least: float, begun: float = 0.0) -> Array:

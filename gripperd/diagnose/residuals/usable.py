@@ -8,7 +8,14 @@ from scipy.ndimage import uniform_filter1d
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.level import STEP
-from gripperd.diagnose.readings.travel import STUCK, TRAVEL, leaning, noticed, travel
+from gripperd.diagnose.readings.travel import (
+    STUCK,
+    TRAVEL,
+    leaning,
+    noticed,
+    reversal,
+    travel,
+)
 from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -94,7 +101,11 @@ def _reversals(course: Course) -> Mask:
     """
     sign, way = course.direction, course.level("contraction")
     turned = np.diff(sign, prepend=sign[0]) != 0
-    near, seen = _widened(turned, 2), noticed(course.hush("contraction"))
+    near = _widened(turned, 2)
+    if not turned.any():
+        return near
+    known = course.smooth["contraction"]
+    seen = noticed(known.variance**0.5, reversal(known.spread))
     ends = [*np.flatnonzero(turned).tolist(), sign.size]
     start = 0
     for place, end in pairwise(ends):

@@ -17,7 +17,7 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.recording import Kind
-from gripperd.diagnose.readings.travel import STILL, TRAVEL, travel
+from gripperd.diagnose.readings.travel import contracting
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.verdict.key import plain
 from gripperd.model.track import Array
@@ -130,8 +130,8 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
     return Course(
         sweep.title, sweep.kind, sweep.time + end, np.diff(sweep.time, prepend=0.0),
         columns, smooth, problem.courses[-1].cycle[-1] + 1 + 0 * sweep.time, nothing,
-        travel(sweep.contraction, TRAVEL) * (np.ptp(sweep.contraction) > STILL),
-        np.full_like(sweep.time, np.nan), start=known.start,
+        contracting(smooth["contraction"]), np.full_like(sweep.time, np.nan),
+        start=known.start,
     )  # fmt: skip
 
 

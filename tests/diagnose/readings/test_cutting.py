@@ -26,6 +26,15 @@ def test_noise_alone_does_not_turn_the_travel() -> None:
         assert np.count_nonzero(np.diff(direction[direction != 0])) == 1
 
 
+def test_noise_in_a_rest_between_two_strokes_does_not_turn_the_travel() -> None:
+    places = np.linspace(0, SIZE, 15)
+    steps = np.repeat([0.0, 0.065, 0.13, 0.195, 0.13, 0.065, 0.0], 2)
+    way = np.interp(np.arange(SIZE), np.append(places[:-1], SIZE), np.append(steps, 0))
+    for seed in range(4):
+        signs = cycled(way, 1e-3, seed).direction
+        assert np.count_nonzero(np.diff(signs[signs != 0])) == 1
+
+
 def test_a_muscle_that_is_held_does_not_travel() -> None:
     course = cycled(np.full(SIZE, 0.1), 5e-4)
     assert not course.direction.any()

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.noise.smoothing import smooth
+from gripperd.diagnose.noise.smoothing import LEAP, smooth
 from gripperd.diagnose.readings.course import Course
 from gripperd.model.track import Array
 from tests.diagnose.cycled import CORNER, SIZE, WAY, cut, cycled
@@ -44,6 +44,20 @@ def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None
     (course,) = cut(run(time=time, current=current, pressure=true + noise(400, 2e3)))
     left = (course.level("pressure") - true)[np.abs(np.arange(400) % 100 - 50) < 45]
     assert np.std(left) < 0.5 * 2e3
+
+
+def test_a_staircase_without_a_command_has_no_noise_in_its_rests() -> None:
+    true = np.repeat([0.0, 150e3, 300e3, 450e3, 300e3, 150e3, 0.0], 60)
+    (course,) = cut(run(pressure=true + noise(420, 2e3)))
+    rests = np.abs(np.arange(420) % 60 - 30) < 25
+    assert np.std((course.level("pressure") - true)[rests]) < 0.3 * 2e3
+
+
+def test_what_is_quieter_than_told_does_not_leap() -> None:
+    time = np.arange(400) * 0.1
+    column = 300e3 + 200e3 * np.sin(time)
+    leaping = smooth(time, column, 1.0, leap=LEAP)
+    assert leaping.likelihood == -np.inf
 
 
 def test_a_sample_that_a_step_cannot_have_caught_counts() -> None:
