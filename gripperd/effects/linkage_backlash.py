@@ -38,9 +38,10 @@ class LinkageBacklash(InGripper):
 
     width: float = amplitude(unit="mm", scale=0.3e-3, low=0.0, high=20e-3)
     """Opening lost at a reversal. [m]"""
-    begun: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    begun: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
     """Where in the gap a record begins: 0 in its middle, 1 on the side to which the way
-    there went, closing to a contraction or opening to rest length. [-]"""
+    there went, closing to a contraction or opening to rest length, -1 on the other. [-]
+    """
 
     @property
     def signal(self) -> Signal:

@@ -58,9 +58,9 @@ class PreslidingHysteresis(InMuscle):
     hysteresis any more but a jump, see ``coulomb_friction``.
     """
 
-    begun: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
-    """Load of the springs where a record begins, of what a way there from rest length
-    loads them with. [-]"""
+    begun: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
+    """Load of the springs where a record begins: 1 as a way there from rest length
+    loads them, -1 the other way. [-]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip, against the travel. [N]."""

@@ -53,9 +53,9 @@ class PressureHysteresis(InMuscle):
     leverage: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """How far the loop shrinks with the ideal pull, c. [-]"""
 
-    begun: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
-    """Load of the springs where a record begins, of what a way there from no pressure
-    loads them with. [-]"""
+    begun: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
+    """Load of the springs where a record begins: 1 as a way there from no pressure
+    loads them, -1 the other way. [-]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip; contracting is inflating. [N]."""

@@ -38,7 +38,7 @@ def begin_at(signal: float, radius: float, load: float, memory: Array) -> None:
     radius
         As :func:`carried` has it.
     load
-        The share. [0..1]
+        The share. [-1..1]
     memory
         As :func:`at_rest` gave it; it is set.
     """
