@@ -38,10 +38,10 @@ def test_a_file_may_begin_at_any_time(
     creep: Diagnosis, found: tuple[Trace, ...]
 ) -> None:
     train = creep.split.train
-    late = [
+    late = tuple(
         replace(one, time=one.time + 1e6, start=one.start + 1e6)
         for one in train.courses
-    ]
+    )
     split = replace(creep.split, train=replace(train, courses=late))
     told = traces(replace(creep, split=split), Signal.FORCE)
     assert [one.start for one in told] == pytest.approx([one.start for one in found])

@@ -54,7 +54,7 @@ def test_a_staircase_without_a_command_has_no_noise_in_its_rests() -> None:
 
 
 def test_what_is_quieter_than_told_does_not_leap() -> None:
-    time = np.arange(400) * 0.1
+    time = np.linspace(0.0, 39.9, 400)
     column = 300e3 + 200e3 * np.sin(time)
     leaping = smooth(time, column, 1.0, leap=LEAP)
     assert leaping.likelihood == -np.inf
@@ -68,7 +68,9 @@ def test_a_sample_that_a_step_cannot_have_caught_counts() -> None:
     true = before + since * (command - before)
     told = true + noise(400, 2e3)
     current = 0.004 + 0.016 * command / 500e3
-    (course,) = cut(run(time=np.arange(400) * 0.02, current=current, pressure=told))
+    (course,) = cut(
+        run(time=np.linspace(0.0, 7.98, 400), current=current, pressure=told)
+    )
     leaps = np.array([100, 200, 300])
     assert course.level("pressure")[leaps] == pytest.approx(true[leaps], abs=50e3)
 
