@@ -34,7 +34,7 @@ class Smooth(NamedTuple):
     variance: float = 0.0
     """Of the noise that was taken off, as :func:`smooth` was told."""
     spread: float = 0.0
-    """Standard deviation of the value, as the past alone has it."""
+    """Standard deviation of the value amid the column, as the past alone has it."""
 
 
 def smooth(
@@ -75,7 +75,7 @@ def smooth(
         slope * scale,
         max(likelihoods) if np.mean(leaps > 0) < SELDOM else -np.inf,
         variance,
-        float(np.sqrt(spreads[-1, 0])) * float(scale),
+        float(np.sqrt(np.median(spreads[:, 0]))) * float(scale),
     )
 
 

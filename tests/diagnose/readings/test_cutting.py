@@ -35,6 +35,14 @@ def test_noise_in_a_rest_between_two_strokes_does_not_turn_the_travel() -> None:
         assert np.count_nonzero(np.diff(signs[signs != 0])) == 1
 
 
+def test_a_contraction_that_breaks_off_has_travelled_before() -> None:
+    broken = WAY.copy()
+    broken[-80:] = np.nan
+    signs = cycled(broken).direction
+    assert (signs[5 : CORNER - 5] == 1).all()
+    assert (signs[CORNER + 5 : 300] == -1).all()
+
+
 def test_a_muscle_that_is_held_does_not_travel() -> None:
     course = cycled(np.full(SIZE, 0.1), 5e-4)
     assert not course.direction.any()
