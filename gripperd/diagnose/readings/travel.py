@@ -9,9 +9,10 @@ from gripperd.model.track import Array
 
 TRAVEL = 1.5e-3
 """Contraction that must be undone before a travel counts as reversed. [-]"""
-SURE = 6.0
-"""The same in standard deviations of a contraction without its noise: of some thousand
-samples at rest none goes that far, nor does a trend beside a corner. [-]"""
+SURE = 3.5
+"""The same in standard deviations of a contraction, as its past alone has it: with what
+comes after it is known half as well again, and no trend beside a corner goes so far.
+Much more, and the short ways of jaws on what yields are missed. [-]"""
 NOTICED = (0.2, 0.4)
 """The least and the most of it that tells when the way back began. [-]"""
 CLEAR = 1.5

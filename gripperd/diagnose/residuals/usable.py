@@ -10,7 +10,6 @@ from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.level import STEP
 from gripperd.diagnose.readings.travel import (
     STUCK,
-    TRAVEL,
     leaning,
     noticed,
     reversal,
@@ -131,13 +130,15 @@ def _stuck(course: Course) -> Mask:
     holds = (grip > PRESSED * course.hush("grip")) & (grip > 0)
     least = STUCK * float(np.ptp(pressure))
     sign, way = travel(pressure, least), course.level("contraction")
+    known = course.smooth.get("contraction")
+    followed = reversal(known.spread if known else 0.0)
     ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
     for start, end in ends.reshape(-1, 2).tolist():
         inside = sign[start:end]
         turns = start + 1 + np.flatnonzero(inside[1:] * inside[:-1] < 0)
         for turn, after in pairwise([*turns.tolist(), end]):
             gone = sign[turn] * (way[turn:after] - way[turn])
-            stuck[turn:after] = ~np.logical_or.accumulate(gone > TRAVEL)
+            stuck[turn:after] = ~np.logical_or.accumulate(gone > followed)
     return _widened(stuck, 2)
 
 
