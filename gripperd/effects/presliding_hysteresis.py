@@ -10,8 +10,6 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
@@ -72,7 +70,6 @@ class PreslidingHysteresis(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
-        if np.isnan(memory).all() and track.contraction.size:
-            begin_at(track.contraction[0], self.contraction, self.begun, memory)
+        begin_at(track.contraction, self.contraction, self.begun, memory)
         forces = (self.near, self.middle, self.far)
         return value - carried(track.contraction, self.contraction, forces, memory)

@@ -69,10 +69,9 @@ class PressureHysteresis(InMuscle):
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
         forces = (self.near, self.middle, self.far)
-        if np.isnan(memory).all() and track.pressure.size:
-            # A transmitter may read less than nothing; a vented muscle loads nothing.
-            load = self.begun if track.pressure[0] > 0 else 0.0
-            begin_at(track.pressure[0], self.pressure, load, memory)
+        # A transmitter may read less than nothing; a vented muscle loads nothing.
+        load = self.begun if np.all(track.pressure[:1] > 0) else 0.0
+        begin_at(track.pressure, self.pressure, load, memory)
         lost = carried(track.pressure, self.pressure, forces, memory)
         return value - lost * self._lever(track.contraction, track.muscle)
 

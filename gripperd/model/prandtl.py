@@ -28,22 +28,23 @@ def at_rest() -> Array:
     return begin(3)
 
 
-def begin_at(signal: float, radius: float, load: float, memory: Array) -> None:
-    """Load springs that have no past, as a share of what a way from 0 would have.
+def begin_at(signal: Array, radius: float, load: float, memory: Array) -> None:
+    """Load springs, if they have no past, as a share of what a way from 0 would have.
 
     Parameters
     ----------
     signal
-        Where the path begins.
+        The path, shape ``(n,)``.
     radius
         As :func:`carried` has it.
     load
         The share. [-1..1]
     memory
-        As :func:`at_rest` gave it; it is set.
+        As :func:`at_rest` gave it, and it is set; or as a call before left it.
     """
-    reaches = radius * SPREAD ** np.arange(-1.0, 2.0)
-    memory[:] = signal - load * np.clip(signal, -reaches, reaches)
+    if signal.size and np.isnan(memory).all():
+        reaches = radius * SPREAD ** np.arange(-1.0, 2.0)
+        memory[:] = signal[0] - load * np.clip(signal[0], -reaches, reaches)
 
 
 def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Array:
