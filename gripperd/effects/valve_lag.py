@@ -3,7 +3,8 @@
 References
 ----------
 .. [1] E. Richer, Y. Hurmuzlu, "A high performance pneumatic force actuator system",
-       J. Dyn. Sys., Meas., Control 122(3), 416-425, 2000: filling and exhaust differ.
+       J. Dyn. Sys., Meas., Control 122(3), 416-425, 2000: filling and exhaust differ,
+       and a valve that is choked lets no more through, however far the pressure is off.
 """
 
 from dataclasses import dataclass
@@ -16,12 +17,16 @@ from gripperd.model.memory import KEPT, delay, lag
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
+CHOKED = 100e3
+"""Distance of a pressure from its command to which the choke refers. [Pa]"""
+
 
 @dataclass(frozen=True, slots=True)
 class ValveLag(InValve):
     r"""A dead time, then a lag that fills and exhausts at its own pace.
 
-    .. math:: p = p_0 + a (p_l - p_0), \quad \tau \dot p_l = p_0(t - T) - p_l
+    .. math:: p = p_0 + a (p_l - p_0), \quad
+        \tau \dot p_l = \frac{e}{1 + c |e|}, \quad e = p_0(t - T) - p_l
 
     A spool that breaks loose and a tube hold the pressure back before it moves.
     """
@@ -44,6 +49,8 @@ class ValveLag(InValve):
     """Time constant of exhaust over that of filling. [-]"""
     dead_time: float = shape(unit="ms", starts=(0.0, 0.03), low=0.0, high=1.0)
     """Time before anything follows. [s]"""
+    choke: float = shape(unit=None, starts=(0.0,), low=0.0, high=50.0)
+    """One over the distance at which the rate is halved; 0: plain lag. [1/(100 kPa)]"""
 
     def rest(self) -> Array:
         """A lag that begins settled, then the past of a delay; shape (2, 1 + KEPT)."""
@@ -53,5 +60,6 @@ class ValveLag(InValve):
         """Pressure that has come so far. [Pa]."""
         late = delay(value, track.time, self.dead_time, memory[:, 1:])
         exhaust = self.time * self.exhaust
-        late = lag(late, track.step, self.time, exhaust, memory[0, :1])
+        choke = self.choke / CHOKED
+        late = lag(late, track.step, self.time, exhaust, memory[0, :1], choke)
         return value + self.share * (late - value)

@@ -10,6 +10,8 @@ References
        section 2.3: play and stop.
 .. [2] P. R. Dahl, "Solid friction damping of mechanical vibrations", AIAA J. 14(12),
        1675-1682, 1976.
+.. [3] ISO 6358-1:2013: the flow through an orifice grows less than the pressure across
+       it, and in the end not at all (choked).
 """
 
 from typing import TypeAlias
@@ -21,6 +23,8 @@ from gripperd.model.compiled import compiled
 
 Array: TypeAlias = NDArray[np.float64]
 
+NEWTON = 8
+"""Steps of a root that is convex: from 100 times a choke's distance it takes 6."""
 KEPT = 1024
 """Samples that a delay remembers from call to call: one second at 1 kHz."""
 
@@ -30,8 +34,18 @@ def begin(size: int = 1) -> Array:
     return np.full(size, np.nan)
 
 
-def lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> Array:
+def lag(
+    signal: Array,
+    step: Array,
+    rise: float,
+    fall: float,
+    state: Array,
+    choke: float = 0.0,
+) -> Array:
     """First-order lag, exact for a signal that is constant between samples.
+
+    Choked, what follows at a distance ``e`` nears by ``e / (T (1 + c e))``: far away
+    no faster than ``1 / (T c)`` [3]_.
 
     Parameters
     ----------
@@ -43,8 +57,10 @@ def lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> A
         Time constants while the signal is above and below what follows it. [s]
     state
         What has followed so far, shape ``(1,)``; it is moved on.
+    choke
+        One over the distance from which the rate is halved. [1 / any]
     """
-    return compiled(_lag)(signal, step, rise, fall, state)
+    return compiled(_lag)(signal, step, rise, fall, state, choke)
 
 
 def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
@@ -124,7 +140,9 @@ def leaked(
     return compiled(_leaked)(signal, step, still, law[0], law[1], state)
 
 
-def _lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> Array:
+def _lag(
+    signal: Array, step: Array, rise: float, fall: float, state: Array, choke: float
+) -> Array:
     out = np.empty_like(signal)
     last = state[0]
     for index in range(signal.size):
@@ -132,7 +150,17 @@ def _lag(signal: Array, step: Array, rise: float, fall: float, state: Array) -> 
         if np.isnan(last):
             last = goal
         constant = rise if goal > last else fall
-        last = goal + (last - goal) * np.exp(-step[index] / constant)
+        away = last - goal
+        kept = np.exp(-step[index] / constant)
+        if choke > 0 and away != 0:
+            # log e + c e falls by t / T: Newton's steps come to it from above.
+            whole = np.log(abs(away)) + choke * abs(away) - step[index] / constant
+            found = min(np.log(abs(away)), whole)
+            for _ in range(NEWTON):
+                bent = choke * np.exp(found)
+                found -= (found + bent - whole) / (1 + bent)
+            kept = np.exp(found) / abs(away)
+        last = goal + away * kept
         out[index] = last
     state[0] = last
     return out

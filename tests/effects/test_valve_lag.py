@@ -41,6 +41,34 @@ def test_a_swing_is_followed_as_the_differential_equation_says(muscle: Muscle) -
     assert found == pytest.approx(exact, abs=2e5 * 0.0015)
 
 
+@pytest.mark.parametrize("choke", [0.5, 5.0, 50.0])
+def test_a_choked_valve_fills_as_the_differential_equation_says(
+    muscle: Muscle, choke: float
+) -> None:
+    time = np.linspace(0.0, 3.0, 31)
+    asked = np.where(time > 0, 300e3, 0.0)
+    effect = ValveLag(share=1.0, time=0.05, choke=choke)
+    track = track_of(muscle, time=time, step=np.diff(time, prepend=0.0))
+
+    def slope(_t: float, p: Array) -> Array:
+        gap = 300e3 - p
+        return np.asarray(gap / 0.05 / (1 + choke * np.abs(gap) / 100e3))
+
+    exact = solve_ivp(slope, (0.0, 3.0), [0.0], t_eval=time, rtol=1e-10, atol=1e-3).y[0]
+    found = effect.along(asked, track, effect.rest())
+    assert found == pytest.approx(exact, abs=1.0)
+
+
+def test_a_choked_valve_empties_at_most_at_its_rate(muscle: Muscle) -> None:
+    effect = ValveLag(share=1.0, time=0.1, exhaust=2.0, choke=40.0)
+    time = np.linspace(0.0, 1.0, 11)
+    asked = np.where(time > 0, 0.0, 300e3)
+    track = track_of(muscle, time=time, step=np.diff(time, prepend=0.0))
+    found = effect.along(asked, track, effect.rest())
+    # 100 kPa / 40 in 0.2 s are 12.5 kPa/s, near that while the distance is long.
+    assert np.diff(found) / 0.1 == pytest.approx(-12.5e3, rel=0.01)
+
+
 def test_nothing_follows_before_the_dead_time_is_over(muscle: Muscle) -> None:
     effect = ValveLag(share=1.0, time=0.5, dead_time=0.2)
     time = np.arange(0.0, 4.0, 0.005)
