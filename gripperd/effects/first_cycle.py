@@ -20,17 +20,21 @@ from gripperd.model.track import Array, Track
 
 REFERENCE = 100e3
 """Pressure that the softening refers to. [Pa]"""
+PERCENT = 0.01
+"""Contraction that it refers to. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
 class FirstCycle(InMuscle):
     r"""The pull of a first inflation differs by a share and by a force.
 
-    .. math:: F = F_0 + w \left(1 - s \frac{p_m - p}{100\,\mathrm{kPa}}\right)^+
+    .. math:: F = F_0 + w \left(1 - s \frac{p_m - p}{100\,\mathrm{kPa}}
+              - e \frac{h_m - h}{1\,\%}\right)^+
               \left(a F_0 + b + c F_0 \frac{p_m}{100\,\mathrm{kPa}}\right)
 
-    with the highest pressure so far, p_m: rubber that has been there is soft already,
-    and where it was most strained the curve of virgin rubber meets that of soft rubber.
+    with the highest pressure and contraction so far, p_m and h_m: rubber that has been
+    there is soft already, and where it was most strained the curve of virgin rubber
+    meets that of soft rubber.
     What is first depends on what undoes the softening: with ``after = 0`` it never
     comes back, and ``w = 1`` in the first inflation of the recording alone; with
     ``after = 1`` a pause is enough, and ``w = 1`` in the first sweep of every row of
@@ -58,17 +62,21 @@ class FirstCycle(InMuscle):
     softened: float = shape(unit=None, starts=(0.0, 2.0), low=0.0, high=20.0)
     """Share of it that a fall by 100 kPa ends, s; with none its deflation counts as
     well. [-]"""
+    eased: float = shape(unit=None, starts=(0.0, 2.0), low=0.0, high=20.0)
+    """Share of it that a return by 1 % of contraction ends, e. [-]"""
 
     def rest(self) -> Array:
-        """Never inflated."""
-        return np.array([-np.inf])
+        """Never inflated, never contracted."""
+        return np.full(2, -np.inf)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pull with what the first inflation has on top. [N]."""
-        reached = np.fmax.accumulate(np.fmax(track.pressure, memory))
-        memory[:] = reached[-1:]
+        reached = np.fmax.accumulate(np.fmax(track.pressure, memory[0]))
+        shortest = np.fmax.accumulate(np.fmax(track.contraction, memory[1]))
+        memory[:] = reached[-1], shortest[-1]
         fallen = (reached - track.pressure) / REFERENCE
-        left = np.maximum(1 - self.softened * fallen, 0.0)
+        returned = (shortest - track.contraction) / PERCENT
+        left = np.maximum(1 - self.softened * fallen - self.eased * returned, 0.0)
         ever = np.where(track.cycle < 1, 1 - self.after, 0.0)
         row = np.where(track.repeat == 0, self.after, 0.0)
         share = self.gain + self.growth * reached / REFERENCE

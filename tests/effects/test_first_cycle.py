@@ -43,6 +43,15 @@ def test_rubber_that_has_been_at_a_pressure_is_soft_there(muscle: Muscle) -> Non
     assert found == pytest.approx(expected)
 
 
+def test_rubber_that_has_been_at_a_length_is_soft_there(muscle: Muscle) -> None:
+    contraction = np.array([0.0, 0.05, 0.1, 0.098, 0.095, 0.05, 0.11])
+    track = track_of(muscle, pressure=3e5, contraction=contraction, cycle=0.0)
+    effect = FirstCycle(0.15, 5.0, eased=2.0)
+    found = effect.along(np.full(7, 200.0), track, effect.rest())
+    expected = [235.0, 235.0, 235.0, 221.0, 200.0, 200.0, 235.0]
+    assert found == pytest.approx(expected)
+
+
 def test_where_it_was_most_strained_virgin_rubber_is_as_soft_as_any(
     muscle: Muscle,
 ) -> None:
