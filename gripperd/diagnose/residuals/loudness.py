@@ -9,7 +9,7 @@ from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.quiet import driven, vented
+from gripperd.diagnose.residuals.quiet import driven, repeated, vented
 from gripperd.model.effect import Signal
 
 POINTS = 0.002
@@ -47,9 +47,11 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
             # Neighbours are no repeats of each other; instruments of a test stand.
             noise = Noise(POINTS * problem.full_scale[signal], 0.0)
         noise = _audible(noise, signal, problem.courses)
-        quiet = thinned(
-            [*vented(problem, signal), *driven(problem, residuals, indices)]
-        )
+        asked = problem, residuals, indices
+        quiet = [
+            *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
+        ]  # fmt: skip
+        quiet = thinned(quiet or repeated(*asked, first=True))
         found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
     return _handed_on(found, problem)
 

@@ -16,6 +16,8 @@ HELD = 0.03
 """Within this share of the highest pressure it is held. [-]"""
 LONG_ENOUGH = 10.0
 """A shorter hold says nothing about drift. [s]"""
+FIRST = 1.0
+"""Inflations finished before any but the first. [-]"""
 
 
 def vented(problem: Problem, signal: Signal) -> list[Quiet]:
@@ -38,7 +40,7 @@ def vented(problem: Problem, signal: Signal) -> list[Quiet]:
 
 
 def driven(problem: Problem, residuals: list[Array], indices: list[int]) -> list[Quiet]:
-    """What is left on pressurised holds, and between sweeps and their repeats.
+    """What is left on pressurised holds.
 
     Parameters
     ----------
@@ -58,7 +60,6 @@ def driven(problem: Problem, residuals: list[Array], indices: list[int]) -> list
             continue
         if float(np.nanmean(course.level("pressure"))) >= VENTED * top:
             found.append(hold(time, residuals[i], creeps=True))
-    found += _repeats(problem, residuals, indices)
     return found
 
 
@@ -70,10 +71,19 @@ def _holds(course: Course, top: float) -> bool:
     return bool(still and np.ptp(pressure) < HELD * top)
 
 
-def _repeats(
-    problem: Problem, residuals: list[Array], indices: list[int]
+def repeated(
+    problem: Problem, residuals: list[Array], indices: list[int], *, first: bool
 ) -> list[Quiet]:
-    """Differences of sweeps that ask the same of the rig, the first pair of each."""
+    """Differences of sweeps that ask the same of the rig, the first pair of each.
+
+    Parameters
+    ----------
+    problem, residuals, indices
+        As of :func:`driven`.
+    first
+        Those of the first inflation, or all others. What it has on top may be an
+        effect, not drift.
+    """
     found: list[Quiet] = []
     taken: set[int] = set()
     for place, i in enumerate(indices):
@@ -82,6 +92,8 @@ def _repeats(
             if i in taken or j in taken or not alike(_run(one), _run(other)):
                 continue
             taken |= {i, j}
+            if first != (one.cycle[0] < FIRST):
+                continue
             size = min(residuals[i].size, residuals[j].size)
             load = problem.measured[i][:size]
             found.append(

@@ -96,6 +96,27 @@ def test_a_sensor_that_drifts_is_seen_to_drift(left_out: tuple[str, ...]) -> Non
     assert moving.std == pytest.approx(FORCE_NOISE, rel=0.2)
 
 
+@pytest.mark.parametrize(
+    ("order", "is_drift"),
+    [
+        pytest.param(("b", "b2", "a", "vented", "c", "d", "e"), False, id="first"),
+        pytest.param(("a", "b", "c", "b2", "vented", "d", "e"), True, id="later"),
+        pytest.param(("b", "b2", "a", "c", "d", "e"), True, id="first, nothing else"),
+    ],
+)
+def test_what_a_first_inflation_has_on_top_is_no_drift(
+    order: tuple[str, ...], *, is_drift: bool
+) -> None:
+    told = recording(order=order)
+    bulging = altered(
+        told, ["b"], "force", lambda read: read + 20 * np.hanning(read.size) ** 3
+    )
+    still, moving = (
+        problem_of(one, MODEL, {}).noises[Signal.FORCE].drift for one in (told, bulging)
+    )
+    assert (moving > 1.5 * still) is is_drift
+
+
 def _drifted(seed: int) -> Callable[[Array], Array]:
     """Add a drift of 5 N that forgets in 40 samples, 10 s."""
     return lambda force: force + noise(force.size, 5.0, seed, float(np.exp(-1 / 40)))
