@@ -14,6 +14,7 @@ from typing import ClassVar
 
 from gripperd.model import Muscle, MuscleState
 from gripperd.model.kinds import InMuscle
+from gripperd.model.parameter import amplitude
 from gripperd.model.real import Real, positive_part
 
 
@@ -30,6 +31,8 @@ class Form(StrEnum):
 class BraidFriction(InMuscle):
     """Friction against the direction of travel, growing with pressure and area.
 
+    A share ``k`` of eq. (6): a coefficient of friction is seldom known before.
+
     Shows in data as a loop in contraction whose width grows with pressure.
     """
 
@@ -41,13 +44,16 @@ class BraidFriction(InMuscle):
     confused_with: ClassVar[tuple[str, ...]] = ("pressure_friction", "coulomb_friction")
     remedy: ClassVar[str] = "add the friction between bladder and braid to the model"
     form: Form = Form.REBRACED
+    share: float = amplitude(unit=None, scale=1.0, low=0.0, high=10.0, default=1.0)
+    """Of the friction of eq. (6), k. [-]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Friction on the axis: against contraction when contracting. [N]."""
-        return -at.direction * self.magnitude(at, muscle)
+        size = self.magnitude(at, muscle)
+        return -at.direction * (size if self.share == 1.0 else self.share * size)
 
     def magnitude(self, at: MuscleState, muscle: Muscle) -> Real:
-        r"""Size of the friction, F_k of eq. (6).
+        r"""Size of the friction of a share of 1, F_k of eq. (6).
 
         .. math:: F_k = \mu \pi L_N (1-h) \{[p D_N - 2 E t] s + 2 E t\}
 
