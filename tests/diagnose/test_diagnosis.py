@@ -243,7 +243,7 @@ def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:
     # Two sweeps where the line of a drift meets the step are left out and bear it out.
     order = ("b", "c", "b2", "d", "vented", "a", "e", "f")
     plain = without(recording(order=order), "current")
-    slipped = altered(plain, order[4:], "force", lambda force: force - 40.0)
+    slipped = altered(plain, order[4:], "force", lambda force: force - 70.0)
     drift = {"force_sensor_drift": EFFECTS["force_sensor_drift"]}
     told = diagnose(slipped, MODEL, {}, drift)
     assert _names(told) == ["force_sensor_drift"]

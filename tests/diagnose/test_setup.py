@@ -36,7 +36,8 @@ def test_a_stated_tolerance_is_used(blank: Problem) -> None:
 
 def test_every_sweep_without_travel_has_a_sign_at_rest(blank: Problem) -> None:
     still = {i for i, course in enumerate(blank.courses) if course.run not in "def"}
-    assert {int(p[5:]) for p in _paths(blank) if p.startswith("rest.")} == still
+    signs = {f"rest.{i}" for i in still} | {"rest.all"}
+    assert {path for path in _paths(blank) if path.startswith("rest.")} == signs
 
 
 def test_a_rig_that_measures_a_push_is_never_slack(blank: Problem) -> None:

@@ -39,6 +39,9 @@ FRICTION = 0.1
 RESTING = 0.4
 """Prior of the sign of friction before any travel: with the bounds of a constant it
 stays between -1 and 1. [-]"""
+RESTING_ALL = 0.38
+"""The same of what all sweeps share: most rigs come to rest from one side. [-]"""
+SHARED = "rest.all"
 
 MUSCLE = (
     "rest_length",
@@ -82,7 +85,7 @@ class Constant:
     def course(self) -> int | None:
         """The only sweep it changes, if there is but one."""
         owner, _, name = self.path.partition(".")
-        return int(name) if owner == "rest" else None
+        return int(name) if owner == "rest" and self.path != SHARED else None
 
 
 _JAWS = frozenset({Signal.OPENING, Signal.GRIP})
@@ -139,6 +142,8 @@ def constants(
     skewed += tuple(signal.value for signal in full_scale if signal in _JAWS)
     found += [Constant(f"skew.{name}", 0.0, SKEW, stated=False) for name in skewed]
     found += [Constant(f"rest.{i}", 0.0, RESTING, stated=False) for i in resting]
+    if resting:
+        found.append(Constant(SHARED, 0.0, RESTING_ALL, stated=False))
     return tuple(found)
 
 
@@ -185,13 +190,22 @@ def moved(
         linkage=explanation.linkage
         and replace(explanation.linkage, **values.get("gripper", {})),
         zeros={Signal(name): zero for name, zero in values.get("zero", {}).items()},
-        rests={
-            int(name): min(max(sign, -1.0), 1.0)
-            for name, sign in values.get("rest", {}).items()
-        },
+        rests=_signs(values.get("rest", {})),
         skews={Signal(name): skew for name, skew in values.get("skew", {}).items()},
         response=max(values.get("response", {}).get("valve", 0.0), 0.0),
     )
+
+
+def _signs(values: Mapping[str, float]) -> dict[int, float]:
+    """Sign of friction in each sweep that rests, from its own part and the shared."""
+    own = {path: min(max(sign, -1.0), 1.0) for path, sign in values.items()}
+    shared = own.pop(SHARED.partition(".")[2], 0.0)
+    return {int(name): together(sign, shared) for name, sign in own.items()}
+
+
+def together(one: float, other: float) -> float:
+    """Add two signs of friction as velocities add up: both are felt from -1 to 1."""
+    return (one + other) / (1 + one * other)
 
 
 def _kept(values: Mapping[str, float]) -> dict[str, float]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.constants import together
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
@@ -115,11 +116,15 @@ def with_usual_sign(train: Problem, point: Point) -> Point:
     How the rig came to rest in them is as unknown as in the others, and not fitted.
     """
     fitted = {block.course for block in train.blocks}
-    own = [(i, c.course) for i, c in enumerate(train.constants) if c.course is not None]
-    known = [point.shifts[i] for i, course in own if course in fitted]
-    unknown = [i for i, course in own if course not in fitted]
+    signs = train.explanation(point).rests
+    known = [sign for course, sign in signs.items() if course in fitted]
+    usual = float(np.mean(known)) if known else 0.0
     shifts = point.shifts.copy()
-    shifts[unknown] = float(np.mean(known)) if known else 0.0
+    for index, constant in enumerate(train.constants):
+        if constant.course is not None and constant.course not in fitted:
+            # Of its own nothing was fitted: what it has is what all share.
+            own = together(usual, -signs[constant.course])
+            shifts[index] = own / constant.sigma
     return replace(point, shifts=shifts)
 
 

@@ -71,6 +71,29 @@ def test_every_sweep_at_rest_has_a_sign_of_its_own() -> None:
     assert courses == {"rest.2": 2, "rest.5": 5}
 
 
+@pytest.mark.parametrize(
+    ("own", "shared", "sign"),
+    # 0.4 of the one and 0.38 of the other, added as velocities: (a + b) / (1 + a b).
+    [(0.0, 0.0, 0.0), (0.5, 0.0, 0.2), (0.0, -2.0, -0.76), (1.25, 1.0, 0.88 / 1.19)],
+)
+def test_a_sweep_rests_as_all_do_and_as_it_does_itself(
+    own: float, shared: float, sign: float
+) -> None:
+    listed = constants(MODEL, {}, SCALES, [2, 5])
+    at = {"rest.2": own, "rest.all": shared}
+    rests = moved(MODEL, listed, [at.get(one.path, 0.0) for one in listed]).rests
+    assert rests == {2: pytest.approx(sign), 5: pytest.approx(0.38 * shared)}
+
+
+@pytest.mark.parametrize("own", [-2.6, 2.6])
+def test_a_sweep_may_rest_the_other_way_than_all_others(own: float) -> None:
+    listed = constants(MODEL, {}, SCALES, [2, 5])
+    at = {"rest.2": own, "rest.all": -own}
+    rests = moved(MODEL, listed, [at.get(one.path, 0.0) for one in listed]).rests
+    assert rests[2] == np.sign(own)
+    assert rests[5] == pytest.approx(-0.38 * own)
+
+
 def test_a_shift_is_in_sigma() -> None:
     listed = constants(MODEL, {"muscle.diameter": 1e-4}, SCALES, [2])
     shifts = [2.0 if one.path == "muscle.diameter" else 0.0 for one in listed]
