@@ -98,6 +98,17 @@ def test_it_opposes_the_travel(
     assert friction.force(extending, muscle) == size
 
 
+@given(share=st.floats(0, 10), form=st.sampled_from(Form))
+def test_a_share_of_it_is_as_a_coefficient_larger_by_that(
+    muscle: Muscle, share: float, form: Form
+) -> None:
+    rough = replace(muscle, friction_coefficient=share * muscle.friction_coefficient)
+    at = state(muscle, 300e3, 0.1)
+    expected = BraidFriction(form).force(at, rough)
+    found = BraidFriction(form, share=share).force(at, muscle)
+    assert found == pytest.approx(expected, rel=1e-12)
+
+
 @given(pressure=PRESSURES, contraction=CONTRACTIONS)
 def test_rebraced_it_never_drives(
     muscle: Muscle, pressure: float, contraction: float

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from gripperd.effects import EFFECTS
-from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model import Muscle
 from gripperd.model.effect import Effect, Stage
 from gripperd.model.parameter import parameters
@@ -109,8 +108,8 @@ def test_every_default_lies_inside_its_bounds(kind: type[Effect]) -> None:
         if known.is_amplitude or known.starts:
             assert known.low <= value <= known.high
         if known.is_amplitude:
-            # The rubber of the paper's model has nothing to be measured first.
-            assert value == (1 if name == "share" and kind is RubberElasticity else 0)
+            # Rubber and braid of the paper's model have nothing to be measured first.
+            assert value == (1 if name == "share" and kind.name in TEXTBOOK else 0)
             assert known.scale < max(-known.low, known.high)
 
 
