@@ -9,17 +9,10 @@ import numpy as np
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.recording import Kind
-from gripperd.diagnose.readings.travel import travel
 from gripperd.model.track import Array
 
 LEAP = 0.02
 """Share of the range between neighbours from which points are no sweep. [-]"""
-
-TURNED, LEAST_TURNED = 0.02, 3e3
-"""Pressure that must be undone before it counts as reversed: share of its range, and
-at least. [-, Pa]"""
-PLATEAU = 0.2
-"""Share of it that is noise of a plateau. [-]"""
 
 
 @dataclass(frozen=True)
@@ -72,23 +65,10 @@ class Course:
         )
 
     @cached_property
-    def inflating(self) -> Array:
-        """Direction of the pressure, 0 before it moved and when not known. [-]."""
-        pressure = self.level("pressure")
-        return np.concatenate([_inflating(pressure[run]) for run in self.slices])
-
-    @cached_property
     def resting(self) -> Mask:
         """Samples of sweeps without travel."""
         directions = [self.direction[run] for run in self.slices]
         return np.concatenate([np.full(d.size, not d.any()) for d in directions])
-
-
-def _inflating(pressure: Array) -> Array:
-    if not np.isfinite(pressure).all():
-        return np.zeros_like(pressure)
-    least = max(TURNED * float(np.ptp(pressure)), LEAST_TURNED)
-    return travel(pressure, least, PLATEAU * least)
 
 
 def joined(courses: Sequence[Course]) -> Course:

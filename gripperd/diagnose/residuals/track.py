@@ -8,7 +8,12 @@ from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.runs import Runs
 from gripperd.model.effect import SensorEffect, Signal
+from gripperd.model.memory import stop
 from gripperd.model.track import Array
+
+TURNED, LEAST_TURNED = 0.01, 3e3
+"""Half the way back of a pressure that turns friction round where nothing travels:
+share of its range, and at least. [-, Pa]"""
 
 
 def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
@@ -99,9 +104,19 @@ def _contraction(explanation: Explanation, course: Course) -> Array:
 
 def directions(explanation: Explanation, course: Course, *places: int) -> Array:
     """Direction of travel; before there was any, what is assumed of it. [-1..1]."""
-    sign, known = np.ones_like(course.time), course.direction
+    found = course.direction.copy()
     for piece, place in zip(course.slices, places, strict=True):
-        sign[piece] = explanation.rests.get(place, 1.0)
-    if explanation.at_rest is AtRest.INFLATING:
-        known = np.where(course.resting, course.inflating, known)
-    return np.where(known == 0, sign, known)
+        sign, known = explanation.rests.get(place, 1.0), found[piece]
+        turns = explanation.at_rest is AtRest.INFLATING and not known.any()
+        pressure = course.level("pressure")[piece]
+        if turns and np.isfinite(pressure).all():
+            found[piece] = _inflating(pressure, sign)
+        else:
+            known[known == 0] = sign
+    return found
+
+
+def _inflating(pressure: Array, sign: float) -> Array:
+    """Sign of friction that turns with a pressure, from one as it came. [-1..1]."""
+    radius = max(TURNED * float(np.ptp(pressure)), LEAST_TURNED)
+    return stop(pressure, radius, pressure[:1] - sign * radius) / radius

@@ -74,8 +74,28 @@ def test_it_may_turn_with_the_pressure_instead() -> None:
     course = _courses(recording())["b"]
     turning = replace(MODEL, at_rest=AtRest.INFLATING)
     signs = directions(turning, course, 0)
-    np.testing.assert_array_equal(signs[5:48], 1.0)
-    np.testing.assert_array_equal(signs[56:], -1.0)
+    np.testing.assert_allclose(signs[5:48], 1.0)
+    np.testing.assert_allclose(signs[56:], -1.0)
+
+
+def test_it_turns_from_where_the_rig_came_over_2_percent_of_the_pressure() -> None:
+    plain = _courses(recording())["b"]
+    # Up by 1 kPa a sample to 500 kPa, and back.
+    swept = 1e3 * np.concatenate([np.arange(500.0), np.arange(500.0, 450.0, -1.0)])
+    zero = np.zeros_like(swept)
+    course = replace(
+        plain,
+        time=0.1 * np.arange(550),
+        step=zero + 0.1,
+        measured={"pressure": swept},
+        smooth={},
+        direction=zero,
+    )
+    turning = replace(MODEL, at_rest=AtRest.INFLATING, rests={0: -0.4})
+    signs = directions(turning, course, 0)
+    # Half the way is 5 kPa: from -0.4 it takes 7 to +1, and from there 10 to -1.
+    np.testing.assert_allclose(signs[[0, 2, 7, 499]], [-0.4, 0.0, 1.0, 1.0], atol=1e-9)
+    np.testing.assert_allclose(signs[[505, 510, 549]], [0.0, -1.0, -1.0], atol=1e-9)
 
 
 def test_where_there_was_travel_its_direction_counts() -> None:
