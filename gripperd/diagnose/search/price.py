@@ -75,8 +75,7 @@ def worth(
         return False
     further = best.fit.cost - larger.fit.cost
     # Constants tie the stages together: it may close elsewhere what it sets free here.
-    gained = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
-    signals |= {s for s, gain in gained.items() if gain > ELSEWHERE * further}
+    signals |= _gained(problem, best, larger)
     closed = sum(null.fit.misfits[s] - larger.fit.misfits[s] for s in signals)
     price = PHANTOM
     old = [one for one in best.candidates if acts_on(problem, one) & signals]
@@ -93,17 +92,32 @@ def worth(
 def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:
     """Whether an addition mends no form before it: what it closes stays closed.
 
-    One that has not paid its price must keep most of that, and leave but noise. Known
-    to look like one that bends, it must keep most of it as well.
+    Those forms bend that act where it gains. One that has not paid its price must keep
+    most of its gain, and leave but noise. Known to look like one that bends, it must
+    keep most of it as well.
     """
     further = best.fit.cost - larger.fit.cost
-    bending = [name for name in forms(best) if name in larger.names]
+    gained = _gained(problem, best, larger)
+    bending = [
+        one.name
+        for one in best.candidates
+        if one.name in forms(best)
+        and one.name in larger.names
+        and acts_on(problem, one) & gained
+    ]
     before, after = (bent(problem, one, bending) for one in (best, larger))
     least = LEAST_OWN if bending else 2 * LEAST_MORE
     kept = MENDED if paid and not _looks_like(best, larger, bending) else OWN
     if before - after <= max(least, kept * further):
         return False
     return paid or after - larger.fit.samples < (2 * larger.fit.samples) ** 0.5
+
+
+def _gained(problem: Problem, best: Rival, larger: Rival) -> frozenset[Signal]:
+    """Signals in which much of what a larger explanation gains is gained."""
+    least = ELSEWHERE * (best.fit.cost - larger.fit.cost)
+    gains = {s: best.fit.misfits[s] - larger.fit.misfits[s] for s in problem.signals}
+    return frozenset(signal for signal, gain in gains.items() if gain > least)
 
 
 def _looks_like(best: Rival, larger: Rival, bending: Collection[str]) -> bool:

@@ -85,7 +85,7 @@ def test_it_turns_from_where_the_rig_came_over_2_percent_of_the_pressure() -> No
     zero = np.zeros_like(swept)
     course = replace(
         plain,
-        time=0.1 * np.arange(550),
+        time=np.linspace(0.0, 54.9, 550),
         step=zero + 0.1,
         measured={"pressure": swept},
         smooth={},

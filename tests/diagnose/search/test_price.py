@@ -59,6 +59,7 @@ JAWED = replace(MODEL, linkage=LINKAGE)
 BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
 DRIFT = Candidate("force_sensor_drift", ForceSensorDrift(rate=0.01))
 GROWS = Candidate("pressure_friction", PressureFriction())
+OFFSET = Candidate("valve_offset", ValveOffset(offset=5e3))
 RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
 THRESHOLD = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
 
@@ -176,6 +177,22 @@ def test_of_what_a_known_double_closes_bending_the_first_may_not_take_most(
     monkeypatch.setattr(price, "bent", lambda _, rival, names: 0.4 * rival.fit.cost)
     monkeypatch.setattr(ThresholdPressure, "confused_with", first)
     monkeypatch.setattr(CoulombFriction, "confused_with", further)
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(
+    ("further", "worth_it"), [(OFFSET, True), (RUB, False)], ids=["valve", "muscle"]
+)
+def test_what_gains_where_nothing_bends_need_not_outdo_a_bend(
+    monkeypatch: pytest.MonkeyPatch, further: Candidate, *, worth_it: bool
+) -> None:
+    """A threshold bends in the force alone, which an offset of the valve leaves be."""
+    told = altered(
+        recording(_stretches_and_rubs(20.0)), moments(), "current", lambda i: i - 2.5e-4
+    )
+    monkeypatch.setattr(price, "LEAST_OWN", np.inf)
+    problem, (null, best, larger) = _fits(told, THRESHOLD, further)
+    assert larger.evidence - best.evidence > 100.0
     assert worth(problem, null, best, larger, 20.0) is worth_it
 
 
