@@ -24,7 +24,7 @@ from gripperd.model.compiled import compiled
 Array: TypeAlias = NDArray[np.float64]
 
 NEWTON = 8
-"""Steps of a root that is convex: from 100 times a choke's distance it takes 6."""
+"""Steps of a root that is convex: from 250 times the distance of a choke it takes 6."""
 KEPT = 1024
 """Samples that a delay remembers from call to call: one second at 1 kHz."""
 

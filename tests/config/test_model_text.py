@@ -82,7 +82,7 @@ def effects(draw: st.DrawFn, kind: type[Effect]) -> Effect:
         for name, known in parameters(kind).items()
     }
     if kind is BraidFriction:
-        return BraidFriction(draw(st.sampled_from(Form)))
+        return BraidFriction(draw(st.sampled_from(Form)), **numbers)
     built: Any = kind
     return built(**numbers)  # type: ignore[no-any-return]
 

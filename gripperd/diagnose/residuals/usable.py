@@ -60,7 +60,7 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
     if sweeps and signal is Signal.FORCE:
-        good &= ~_stuck(course)
+        good &= ~_stuck(course) & ~_late(course)
     return good
 
 
@@ -140,6 +140,27 @@ def _stuck(course: Course) -> Mask:
             gone = sign[turn] * (way[turn:after] - way[turn])
             stuck[turn:after] = ~np.logical_or.accumulate(gone > followed)
     return _widened(stuck, 2)
+
+
+def _late(course: Course) -> Mask:
+    """Samples in which a free muscle sticks: its pressure turned, and later it follows.
+
+    What a machine moves follows no pressure. What does lies still until its friction
+    has turned round, and that lies anywhere between the two directions until then.
+    """
+    late = np.zeros(len(course), dtype=bool)
+    pressure, way = course.level("pressure"), course.level("contraction")
+    if not (course.direction.any() and np.isfinite(pressure).all()):
+        return late
+    sign = travel(pressure, STUCK * float(np.ptp(pressure)))
+    followed = reversal(course.smooth["contraction"].spread)
+    turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)
+    for turn, after in pairwise([*turns.tolist(), len(course)]):
+        gone = sign[turn] * (way[turn:after] - way[turn])
+        moved = np.flatnonzero(np.abs(gone) > followed)
+        if moved.size and gone[moved[0]] > 0:
+            late[turn : turn + moved[0]] = True
+    return _widened(late, 2)
 
 
 def _widened(near: Mask, reach: int) -> Mask:
