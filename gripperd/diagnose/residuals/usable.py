@@ -152,7 +152,8 @@ def _late(course: Course) -> Mask:
     pressure, way = course.level("pressure"), course.level("contraction")
     if not (course.direction.any() and np.isfinite(pressure).all()):
         return late
-    sign = travel(pressure, STUCK * float(np.ptp(pressure)))
+    # Of its height, not of its range: what is left of an isobar turns nothing.
+    sign = travel(pressure, STUCK * float(np.max(np.abs(pressure))))
     followed = reversal(course.smooth["contraction"].spread)
     turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)
     for turn, after in pairwise([*turns.tolist(), len(course)]):
