@@ -7,7 +7,7 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.verdict.gap import Gap, by_signal, gaps
+from gripperd.diagnose.verdict.gap import Gap, by_signal, gaps, with_usual_sign
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
 
@@ -161,3 +161,28 @@ def test_a_crowd_of_effects_must_close_a_gap_closely(
     gap = _gap(9.0, after)
     assert gap.confirms(3) is confirms
     assert gap.confirms(2)
+
+
+@pytest.mark.parametrize("shared", [-2.0, 0.0, 2.5])
+def test_sweeps_left_out_rest_as_the_mean_of_the_others(
+    blank: Problem, shared: float
+) -> None:
+    out = {index for index, one in enumerate(blank.courses) if one.run == "b2"}
+    kept = tuple(
+        np.full(len(one), index not in out) for index, one in enumerate(blank.courses)
+    )
+    train = replace(blank, kept=kept)
+    paths = [one.path for one in train.constants]
+    shifts = np.zeros(len(paths))
+    shifts[paths.index("rest.all")] = shared
+    shifts[paths.index("rest.1")] = 1.5
+    shifts[paths.index("rest.2")] = -1.0
+    before, after = (
+        train.explanation(point).rests
+        for point in (Point(shifts), with_usual_sign(train, Point(shifts)))
+    )
+    others = [sign for index, sign in before.items() if index not in out]
+    assert len(out & before.keys()) == 1
+    for index, sign in after.items():
+        expected = np.mean(others) if index in out else before[index]
+        assert sign == pytest.approx(expected)
