@@ -34,6 +34,7 @@ def test_constants_tolerances_and_effects_are_told_in_the_units_of_the_file(
         Change("valve.pressure_kPa[1]", 500.0, 510.0),
         Change("effects.braid_friction", "present", None),
         Change("effects.braid_friction.form", "rebraced", None),
+        Change("effects.braid_friction.share", 1.0, None),
         Change("effects.creep", None, "present"),
         Change("effects.creep.fast", None, 0.0),
         Change("effects.creep.medium", None, 0.0),
