@@ -239,13 +239,25 @@ def test_a_constant_of_the_jaws_is_borne_out_by_the_jaws(
     assert diagnose(told, model, {}, {}).verdict is not Verdict.NAMED
 
 
-def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:
-    # Two sweeps where the line of a drift meets the step are left out and bear it out.
+def _slipped(newtons: float) -> Diagnosis:
+    """A force that jumps, with a drift as the only name for it."""
     order = ("b", "c", "b2", "d", "vented", "a", "e", "f")
     plain = without(recording(order=order), "current")
-    slipped = altered(plain, order[4:], "force", lambda force: force - 70.0)
+    slipped = altered(plain, order[4:], "force", lambda force: force - newtons)
     drift = {"force_sensor_drift": EFFECTS["force_sensor_drift"]}
-    told = diagnose(slipped, MODEL, {}, drift)
+    return diagnose(slipped, MODEL, {}, drift)
+
+
+@pytest.mark.parametrize("newtons", [20.0, 40.0])
+def test_a_small_jump_of_the_force_is_told_as_one(newtons: float) -> None:
+    told = _slipped(newtons)
+    assert told.verdict is Verdict.UNEXPLAINED
+    assert any(word.startswith("force: jumps by -") for word in told.signature)
+
+
+def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:
+    # Two sweeps where the line of a drift meets the step are left out and bear it out.
+    told = _slipped(70.0)
     assert _names(told) == ["force_sensor_drift"]
     assert told.conclusion.share > 0.8
     assert told.named[0].heldout_gain > 0.8

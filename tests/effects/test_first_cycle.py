@@ -50,6 +50,10 @@ def test_rubber_that_has_been_at_a_length_is_soft_there(muscle: Muscle) -> None:
     found = effect.along(np.full(7, 200.0), track, effect.rest())
     expected = [235.0, 235.0, 235.0, 221.0, 200.0, 200.0, 235.0]
     assert found == pytest.approx(expected)
+    memory = effect.rest()
+    for one, known in zip(contraction.tolist(), expected, strict=True):
+        track = track_of(muscle, pressure=3e5, contraction=one, cycle=0.0)
+        assert effect.along(np.full(1, 200.0), track, memory) == pytest.approx(known)
 
 
 def test_where_it_was_most_strained_virgin_rubber_is_as_soft_as_any(

@@ -78,14 +78,16 @@ def test_it_may_turn_with_the_pressure_instead() -> None:
     np.testing.assert_allclose(signs[56:], -1.0)
 
 
-def test_it_turns_from_where_the_rig_came_over_2_percent_of_the_pressure() -> None:
+@pytest.mark.parametrize(("share", "half"), [(1.0, 5), (0.2, 3)])
+def test_it_turns_from_where_the_rig_came_over_a_way(share: float, half: int) -> None:
     plain = _courses(recording())["b"]
-    # Up by 1 kPa a sample to 500 kPa, and back.
-    swept = 1e3 * np.concatenate([np.arange(500.0), np.arange(500.0, 450.0, -1.0)])
+    # Up by 1 kPa a sample to 500 kPa, or 100, and back by 50.
+    top = round(500 * share)
+    swept = 1e3 * np.append(np.arange(0.0, top), np.arange(top, top - 50.0, -1.0))
     zero = np.zeros_like(swept)
     course = replace(
         plain,
-        time=np.linspace(0.0, 54.9, 550),
+        time=np.linspace(0.0, 0.1 * (swept.size - 1), swept.size),
         step=zero + 0.1,
         measured={"pressure": swept},
         smooth={},
@@ -93,9 +95,11 @@ def test_it_turns_from_where_the_rig_came_over_2_percent_of_the_pressure() -> No
     )
     turning = replace(MODEL, at_rest=AtRest.INFLATING, rests={0: -0.4})
     signs = directions(turning, course, 0)
-    # Half the way is 5 kPa: from -0.4 it takes 7 to +1, and from there 10 to -1.
-    np.testing.assert_allclose(signs[[0, 2, 7, 499]], [-0.4, 0.0, 1.0, 1.0], atol=1e-9)
-    np.testing.assert_allclose(signs[[505, 510, 549]], [0.0, -1.0, -1.0], atol=1e-9)
+    # Half the way is 1 % of the range, and 3 kPa at least.
+    np.testing.assert_allclose(signs[[0, 1]], [-0.4, -0.4 + 1 / half])
+    np.testing.assert_allclose(signs[2 * half : top + 1], 1.0)
+    np.testing.assert_allclose(signs[top + half], 0.0, atol=1e-9)
+    np.testing.assert_allclose(signs[top + 2 * half :], -1.0)
 
 
 def test_where_there_was_travel_its_direction_counts() -> None:
