@@ -14,7 +14,6 @@ test: $(VENV)/developing
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 # All of them, unless ONLY names some, such as physics, bus, diagnosis or footprint.
-# stopping, punctuality, footprint.
 bench: $(VENV)/developing
 	$(BIN)/python -m tests.benchmarks $(ONLY)
 

@@ -40,7 +40,8 @@ RESTING = 0.4
 """Prior of the sign of friction before any travel: with the bounds of a constant it
 stays between -1 and 1. [-]"""
 RESTING_ALL = 0.38
-"""The same of what all sweeps share: most rigs come to rest from one side. [-]"""
+"""The same of what all sweeps share: most rigs come to rest from one side. Its bound
+is less than 1, so that a sweep may still rest the other way. [-]"""
 SHARED = "rest.all"
 
 MUSCLE = (

@@ -1,5 +1,6 @@
 """Samples of a sweep that say something about a stage."""
 
+from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
@@ -130,13 +131,10 @@ def _stuck(course: Course) -> Mask:
     holds = (grip > PRESSED * course.hush("grip")) & (grip > 0)
     least = STUCK * float(np.ptp(pressure))
     sign, way = travel(pressure, least), course.level("contraction")
-    known = course.smooth.get("contraction")
-    followed = reversal(known.spread if known else 0.0)
+    followed = _followed(course)
     ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
     for start, end in ends.reshape(-1, 2).tolist():
-        inside = sign[start:end]
-        turns = start + 1 + np.flatnonzero(inside[1:] * inside[:-1] < 0)
-        for turn, after in pairwise([*turns.tolist(), end]):
+        for turn, after in _legs(sign, start, end):
             gone = sign[turn] * (way[turn:after] - way[turn])
             stuck[turn:after] = ~np.logical_or.accumulate(gone > followed)
     return _widened(stuck, 2)
@@ -150,18 +148,30 @@ def _late(course: Course) -> Mask:
     """
     late = np.zeros(len(course), dtype=bool)
     pressure, way = course.level("pressure"), course.level("contraction")
-    if not (course.direction.any() and np.isfinite(pressure).all()):
+    if not np.isfinite(pressure).all():
         return late
     # Of its height, not of its range: what is left of an isobar turns nothing.
     sign = travel(pressure, STUCK * float(np.max(np.abs(pressure))))
-    followed = reversal(course.smooth["contraction"].spread)
-    turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)
-    for turn, after in pairwise([*turns.tolist(), len(course)]):
+    followed = _followed(course)
+    for turn, after in _legs(sign, 0, len(course)):
         gone = sign[turn] * (way[turn:after] - way[turn])
         moved = np.flatnonzero(np.abs(gone) > followed)
         if moved.size and gone[moved[0]] > 0:
             late[turn : turn + moved[0]] = True
     return _widened(late, 2)
+
+
+def _followed(course: Course) -> float:
+    """Way of the contraction from which it has followed a pressure. [-]."""
+    known = course.smooth.get("contraction")
+    return reversal(known.spread if known else 0.0)
+
+
+def _legs(sign: Array, start: int, end: int) -> Iterable[tuple[int, int]]:
+    """Where a way turns between two samples, each with where its new leg ends."""
+    inside = sign[start:end]
+    turns = start + 1 + np.flatnonzero(inside[1:] * inside[:-1] < 0)
+    return pairwise([*turns.tolist(), end])
 
 
 def _widened(near: Mask, reach: int) -> Mask:

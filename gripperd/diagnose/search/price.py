@@ -98,13 +98,8 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     """
     further = best.fit.cost - larger.fit.cost
     gained = _gained(problem, best, larger)
-    bending = [
-        one.name
-        for one in best.candidates
-        if one.name in forms(best)
-        and one.name in larger.names
-        and acts_on(problem, one) & gained
-    ]
+    there = {one.name for one in best.candidates if acts_on(problem, one) & gained}
+    bending = [name for name in forms(best) if name in there & {*larger.names}]
     before, after = (bent(problem, one, bending) for one in (best, larger))
     least = LEAST_OWN if bending else 2 * LEAST_MORE
     kept = MENDED if paid and not _looks_like(best, larger, bending) else OWN
