@@ -6,14 +6,14 @@ References
        J. R. Stat. Soc. B 36(2), 111-147, 1974.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 import numpy as np
 
 from gripperd.diagnose.fit.gram import bounded
 from gripperd.diagnose.fit.polish import Polished
 from gripperd.diagnose.fit.tangent import Tangent
-from gripperd.diagnose.residuals.holdout import FEW, inside
+from gripperd.diagnose.residuals.holdout import FEW, within
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -44,24 +44,32 @@ def foretold(problem: Problem, fit: Polished) -> Array:
         np.where(tangent.shapes, here, bound) for bound in (tangent.low, tangent.high)
     )
     parts = list(zip(tangent.columns, tangent.targets, strict=True))
-    products = np.array([z.T @ z for z, _ in parts])
-    moments = np.array([z.T @ y for z, y in parts])
-    whole = np.diag(products.sum(0))
+    # Other sweeps are all but this one: what a sweep adds is taken from the whole.
+    products, moments = _normal(parts, here.size)
     owners = np.array([block.course for block in problem.blocks])
     found = np.empty(len(parts))
     for owner in np.unique(owners):
-        own, others = np.flatnonzero(owners == owner), owners != owner
-        told = products[others].sum(0)
+        own = np.flatnonzero(owners == owner)
+        of_own = _normal([parts[i] for i in own], here.size)
+        told, aimed = products - of_own[0], moments - of_own[1]
         # What shows in this sweep alone the others cannot tell: it stays as it is.
-        known = np.diag(told) >= TOLD * whole
+        known = np.diag(told) >= TOLD * np.diag(products)
         reach = np.where(known, low, here), np.where(known, high, here)
-        matrix = told + np.eye(here.size)
-        aim = bounded(matrix, moments[others].sum(0), *reach, here)
+        aim = bounded(told + np.eye(here.size), aimed, *reach, here)
         for i in own:
             z, y = parts[i]
             left = y - z @ aim
             found[i] = left @ left
     return found
+
+
+def _normal(parts: Iterable[tuple[Array, Array]], size: int) -> tuple[Array, Array]:
+    """Sum the normal equations of some columns with their targets."""
+    products, moments = np.zeros((size, size)), np.zeros(size)
+    for z, y in parts:
+        products += z.T @ z
+        moments += z.T @ y
+    return products, moments
 
 
 def bears_out(
@@ -76,7 +84,7 @@ def bears_out(
     owners = np.array([block.course for block in blocks])
     taking_part = np.unique(owners)
     courses = [problem.courses[owner] for owner in taking_part]
-    inner = [owner for place, owner in enumerate(taking_part) if inside(courses, place)]
+    inner = taking_part[within(courses)]
     heard = np.isin(owners, inner) & [block.signal in signals for block in blocks]
     if len(inner) < FEW:
         return True

@@ -239,11 +239,8 @@ class _Builder:
 
     def gram(self) -> Gram:
         problem, m = self._problem, self.width
-        runs = len(problem.courses)
-        products = np.zeros((runs, m, m))
-        moments = np.zeros((runs, m))
-        squares = np.zeros(runs)
-        for index, block in enumerate(problem.blocks):
+        products, moments, square = np.zeros((m, m)), np.zeros(m), 0.0
+        for index in range(len(problem.blocks)):
             columns = {
                 place: response[index] * prior
                 for place, (response, prior) in enumerate(self._responses)
@@ -252,8 +249,8 @@ class _Builder:
             places = np.array(list(columns), dtype=np.intp)
             white = problem.white([*columns.values(), self._targets[index]], index)
             z, y = white[:, :-1], white[:, -1]
-            products[block.course][np.ix_(places, places)] += z.T @ z
-            moments[block.course][places] += z.T @ y
-            squares[block.course] += float(y @ y)
+            products[np.ix_(places, places)] += z.T @ z
+            moments[places] += z.T @ y
+            square += float(y @ y)
         low, high = np.array(self._bounds).T
-        return Gram(products, moments, squares, low, high)
+        return Gram(products, moments, square, low, high)

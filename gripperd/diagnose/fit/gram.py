@@ -11,7 +11,6 @@ References
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,24 +32,20 @@ class Fit:
     """Log of the marginal likelihood, up to what all fits share. [nat]"""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Gram:
-    """Inner products of whitened columns and residual, run by run."""
+    """Inner products of whitened columns and residual."""
 
     products: Array
-    """Shape ``(runs, m, m)``."""
+    """Shape ``(m, m)``."""
     moments: Array
-    """With the residual, shape ``(runs, m)``."""
-    squares: Array
-    """Of the residual, shape ``(runs,)``."""
+    """With the residual, shape ``(m,)``."""
+    square: float
+    """Of the residual."""
     low: Array
     """Least coefficient that physics or a tolerance allows, shape ``(m,)``."""
     high: Array
     """Largest."""
-
-    @cached_property
-    def _total(self) -> tuple[Array, Array, float]:
-        return self.products.sum(0), self.moments.sum(0), float(self.squares.sum())
 
     def fit(self, columns: Sequence[int] | Indices, start: Array | None = None) -> Fit:
         """Fit some columns.
@@ -58,11 +53,11 @@ class Gram:
         A coefficient that would leave its bounds stays on them. Coefficients nearby
         are where to start; none for anywhere.
         """
-        products, moments, square = self._total
         kept = np.asarray(columns, dtype=np.intp)
-        matrix = products[np.ix_(kept, kept)] + np.eye(kept.size)
-        best = bounded(matrix, moments[kept], self.low[kept], self.high[kept], start)
-        cost = square - float((2 * moments[kept] - matrix @ best) @ best)
+        matrix = self.products[np.ix_(kept, kept)] + np.eye(kept.size)
+        moments = self.moments[kept]
+        best = bounded(matrix, moments, self.low[kept], self.high[kept], start)
+        cost = self.square - float((2 * moments - matrix @ best) @ best)
         volume = float(np.linalg.slogdet(matrix)[1])
         return Fit(kept, best, cost, -0.5 * (cost + volume))
 

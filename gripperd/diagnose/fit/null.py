@@ -29,7 +29,7 @@ def null_gains(
     One a simulation, rising, shape ``(SIMULATIONS,)``. [nat]
     """
     gram = design.gram
-    products = gram.products.sum(0)
+    products = gram.products
     values, vectors = np.linalg.eigh(products)
     root = vectors * np.sqrt(np.maximum(values, 0.0))
     draws = root @ rng.standard_normal((values.size, SIMULATIONS))

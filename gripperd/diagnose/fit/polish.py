@@ -191,12 +191,7 @@ def slopes(
     """Whitened change of every prediction for one unit of each parameter, (n, k)."""
     base = Base.of(problem, point)
     acting = {effect.name: effect for effect in point.effects}
-    columns = [
-        [width * column for column in response]
-        for width, response in zip(
-            point.widths.tolist(), sensitivities(problem, point, base), strict=True
-        )
-    ]
+    columns = sensitivities(problem, point, base)
     here = coefficients(point, coordinates)
     count = point.shifts.size
     for index, coordinate in enumerate(coordinates):
@@ -208,9 +203,23 @@ def slopes(
         there = problem.explanation(_moved(problem, point, coordinates, vector))
         effect = acting[coordinate.effect]
         columns.append(change(problem, base, there, effect, step))
+    units = [*point.widths.tolist(), *(1.0 for _ in coordinates)]
     return np.concatenate(
-        [
-            problem.white([column[index] for column in columns], index)
-            for index in range(len(problem.blocks))
-        ]
+        [_slopes(problem, columns, units, index) for index in range(len(problem.zeros))]
     )
+
+
+def _slopes(
+    problem: Problem,
+    columns: Sequence[Sequence[Array]],
+    units: Sequence[float],
+    index: int,
+) -> Array:
+    """Those of one block; most numbers of one sweep each change nothing in it."""
+    zero = problem.zeros[index]
+    shown = [place for place, column in enumerate(columns) if column[index] is not zero]
+    found = np.zeros((zero.size, len(columns)))
+    if shown:
+        changes = [units[place] * columns[place][index] for place in shown]
+        found[:, shown] = problem.white(changes, index)
+    return found

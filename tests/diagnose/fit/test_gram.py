@@ -23,9 +23,9 @@ def _gram(
     columns: Array, target: Array, low: Array = -FREE, high: Array = FREE
 ) -> Gram:
     return Gram(
-        np.einsum("rni,rnj->rij", columns, columns),
-        np.einsum("rni,rn->ri", columns, target),
-        np.einsum("rn,rn->r", target, target),
+        np.einsum("rni,rnj->ij", columns, columns),
+        np.einsum("rni,rn->i", columns, target),
+        float(np.sum(target**2)),
         low,
         high,
     )

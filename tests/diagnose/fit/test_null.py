@@ -23,9 +23,9 @@ def _columns() -> Array:
 
 def _gram(columns: Array, target: Array, low: Array) -> Gram:
     return Gram(
-        (columns.T @ columns)[None],
-        (columns.T @ target)[None],
-        np.array([target @ target]),
+        columns.T @ columns,
+        columns.T @ target,
+        float(target @ target),
         low,
         np.full(low.size, np.inf),
     )

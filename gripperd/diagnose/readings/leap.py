@@ -1,0 +1,30 @@
+"""Leaps: samples to which a column has stepped, where it does not go on like that."""
+
+import numpy as np
+
+from gripperd.diagnose.readings.fault import Mask
+from gripperd.model.track import Array
+
+STEP = 0.06
+"""Share of its reach by which a column moves in one sample where it steps. [-]"""
+SLOW = 0.1
+"""Time between samples in which two sensors have seen the same: cells, hoses and
+regulators answer within 10 to 60 ms. [s]"""
+
+
+def leaps(value: Array, reach: float, step: Array) -> Mask:
+    """Tell the samples to which a column has leapt.
+
+    Parameters
+    ----------
+    value
+        Of one sweep, shape ``(n,)``.
+    reach
+        Of the column, in its unit.
+    step
+        Time since the sample before. A ramp in few slow samples does not leap. [s]
+    """
+    change = np.abs(np.diff(value, prepend=value[0]))
+    beside = np.minimum(np.roll(change, 1), np.roll(change, -1))
+    ramps = (beside > change / 2) & (step >= SLOW)
+    return (change > STEP * reach) & ~ramps
