@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.columns import BY_QUANTITY
@@ -179,11 +181,13 @@ def contradicted(found: Contradiction, most: int = SHOWN) -> str:
     Written as "force_N of a, b differs from that of c by 310 N at the same place".
     """
     runs, others = (_some(names, most) for names in (found.runs, found.others))
-    return (
+    said = (
         f"{found.column} of {runs} differs from that of {others} by"
-        f" {abs(found.difference):.3g} {found.unit} at the same place, and repeats by"
-        f" {found.spread:.2g} {found.unit}"
+        f" {abs(found.difference):.3g} {found.unit} at the same place"
     )
+    if np.isfinite(found.spread):
+        said += f", and repeats by {found.spread:.2g} {found.unit}"
+    return said
 
 
 def offered(offer: Offer) -> str:

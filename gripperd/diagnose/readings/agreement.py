@@ -149,12 +149,21 @@ def _contradiction(
     seen = np.logical_and(*(np.isfinite(camp).any(0) for camp in camps))
     here, there = (np.nanmean(camp[:, seen], axis=0) for camp in camps)
     off = here - there
-    scatter = np.concatenate([camps[0][:, seen] - here, camps[1][:, seen] - there])
     return Contradiction(
         runs=tuple(one.name for one in first),
         others=tuple(one.name for one in second),
         column=column.name,
         difference=float(np.sqrt(np.mean(off**2)) * np.sign(off.mean())) / column.scale,
         unit=column.unit,
-        spread=float(np.sqrt(np.nanmean(scatter**2))) / column.scale,
+        spread=_spread(camps) / column.scale,
     )
+
+
+def _spread(camps: Sequence[Array]) -> float:
+    """How far sweeps of a camp differ where several went, 1 sigma; NaN if none did."""
+    squares, again = 0.0, 0
+    for camp in camps:
+        twice = camp[:, np.isfinite(camp).sum(0) > 1]
+        squares += float(np.nansum((twice - np.nanmean(twice, axis=0)) ** 2))
+        again += int(np.isfinite(twice).sum()) - twice.shape[1]
+    return (squares / again) ** 0.5 if again else np.nan

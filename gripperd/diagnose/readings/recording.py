@@ -67,7 +67,8 @@ class Contradiction:
     in the unit of the file."""
     unit: str
     spread: float
-    """How far repeats inside a group differ, 1 sigma, in the unit of the file."""
+    """How far repeats inside a group differ, 1 sigma, in the unit of the file; NaN when
+    no place was visited twice inside a group."""
 
 
 @dataclass(frozen=True, slots=True)

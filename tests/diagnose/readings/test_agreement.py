@@ -84,3 +84,18 @@ def test_sweeps_that_share_no_place_cannot_disagree() -> None:
 
 def test_a_recording_without_force_is_not_judged_by_it() -> None:
     assert beyond_use(without(recording(), "force")) == ()
+
+
+def test_how_far_repeats_differ_is_that_of_sweeps_at_one_place() -> None:
+    # Two of a camp at 0.1, 20 N apart; the others are alone where they went.
+    one = pulled("one", contraction=0.1, seed=1)
+    other = altered(
+        Recording("r", "0" * 64, (pulled("other", contraction=0.1, seed=2),)),
+        ["other"],
+        "force",
+        lambda force: force + 20.0,
+    ).runs
+    twice = [pulled(f"{i}", contraction=0.1, gain=2.0, seed=3 + i) for i in range(2)]
+    (found,) = beyond_use(Recording("bench", "0" * 64, (one, *other, *twice)))
+    # Of 20 N and 0 N between two, root mean square of 14 N and 0 N.
+    assert found.spread == pytest.approx(10.0, rel=0.1)
