@@ -18,7 +18,7 @@ from gripperd.diagnose.search.dwell import dwelling, misfit, stilled
 from gripperd.diagnose.search.finalists import leaders
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import LEAST_MORE, MUCH, is_fault
-from gripperd.diagnose.search.rivalry import SURE, Contest, removed
+from gripperd.diagnose.search.rivalry import SURE, Contest, needed, removed
 from gripperd.model.effect import Signal
 
 NEXT = 2
@@ -109,7 +109,7 @@ def _with(
     # A form that other sweeps foretell goes before one that fits these better.
     before = here.fit
     going.sort(key=lambda one: not bears_out(problem, before, one.fit, [kind.signal]))
-    told, without = _needed(problem, going[0], found.threshold)
+    told, without = needed(problem, going[0], found.threshold)
     own, *alike = (rival.candidates[-1] for rival in _kinds(going))
     if own not in told.candidates:
         return found, best
@@ -195,27 +195,6 @@ def _takes_its_share(
     )
     takes_much = before - after > MUCH * before
     return takes_much and bears_out(problem, here.fit, larger.fit, [kind.signal])
-
-
-def _needed(
-    problem: Problem, told: Rival, threshold: float
-) -> tuple[Rival, tuple[Rival, ...]]:
-    """Drop what is idle beside the rest, and give it without each that is not."""
-    without = tuple(_without(problem, told))
-    while len(told.candidates) > 1:
-        idle = max(without, key=lambda one: one.evidence)
-        if told.evidence - idle.evidence > threshold:
-            break
-        told, without = idle, tuple(_without(problem, idle))
-    return told, without
-
-
-def _without(problem: Problem, told: Rival) -> Iterator[Rival]:
-    """Give it without each of its candidates."""
-    for index, own in enumerate(told.candidates):
-        rest = (*told.candidates[:index], *told.candidates[index + 1 :])
-        point = removed(problem, told.fit.point, own)
-        yield Rival(rest, polished(problem, point))
 
 
 def _stand_ins(best: Contest) -> dict[Candidate, list[Candidate]]:

@@ -11,7 +11,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.preference import BORE, at_edge
 from gripperd.diagnose.search.price import LEAST_MORE
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.rivalry import Contest, without_each
 
 KIN = 0.5
 """Share of the gain from which another constant could be the wrong one. [-]"""
@@ -55,7 +55,7 @@ def with_overstepped(
     told = next((one for one in kin if BORE in one.names), kin[0])
     return Contest(
         told,
-        (*best.without, here),
+        without_each(problem, told),
         (*best.rivals, tuple(rival for rival in kin if rival is not told)),
     )
 

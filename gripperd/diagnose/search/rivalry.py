@@ -120,10 +120,8 @@ def _challengers(
     problem: Problem, best: Rival, index: int, listed: Sequence[Candidate]
 ) -> tuple[Rival, list[Rival]]:
     """Give the best without a candidate, and with each of its strongest rivals."""
-    own = best.candidates[index]
-    rest = (*best.candidates[:index], *best.candidates[index + 1 :])
-    without = Rival(rest, polished(problem, removed(problem, best.fit.point, own)))
-    base = without.fit.point
+    without = _without(problem, best, index)
+    rest, base = without.candidates, without.fit.point
     taken = set(best.names)
     around = design(problem, base, [one for one in listed if one.name not in taken])
     leaders: dict[str, tuple[float, Member]] = {}
@@ -140,6 +138,32 @@ def _challengers(
         )
         for _, member in strongest
     ]
+
+
+def needed(
+    problem: Problem, told: Rival, threshold: float
+) -> tuple[Rival, tuple[Rival, ...]]:
+    """Drop what is idle beside the rest, and give it without each that is not."""
+    without = without_each(problem, told)
+    while len(told.candidates) > 1:
+        idle = max(without, key=lambda one: one.evidence)
+        if told.evidence - idle.evidence > threshold:
+            break
+        told, without = idle, without_each(problem, idle)
+    return told, without
+
+
+def without_each(problem: Problem, told: Rival) -> tuple[Rival, ...]:
+    """Give it without each of its candidates, fitted anew."""
+    return tuple(
+        _without(problem, told, index) for index in range(len(told.candidates))
+    )
+
+
+def _without(problem: Problem, told: Rival, index: int) -> Rival:
+    rest = (*told.candidates[:index], *told.candidates[index + 1 :])
+    point = removed(problem, told.fit.point, told.candidates[index])
+    return Rival(rest, polished(problem, point))
 
 
 def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:

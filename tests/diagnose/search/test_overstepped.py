@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.search import overstepped
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
@@ -40,6 +41,10 @@ def test_a_bore_that_its_tolerance_holds_back_is_told() -> None:
     shift = float(told.best.fit.point.shifts[0])
     assert shift == pytest.approx(-8.0, abs=2.0)
     assert len(told.without) == len(told.rivals) == 2
+    # Without the threshold the bore alone has to make do, and is fitted anew for it.
+    assert [one.names for one in told.without] == [(BORE,), ("threshold_pressure",)]
+    bare = polished(found.problem, told.without[0].fit.point)
+    assert told.without[0].fit.cost == pytest.approx(bare.cost, rel=1e-3)
 
 
 def test_a_bore_within_its_tolerance_is_not_told() -> None:
