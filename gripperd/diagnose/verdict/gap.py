@@ -20,6 +20,8 @@ from gripperd.model.track import Array
 
 STRETCH = 40
 """Samples that are drawn together, longer than the noise remembers."""
+PIECES = 8
+"""Of a few samples as many are drawn at least, be they shorter."""
 DRAWS = 400
 WORSE = 1.01
 """Gap over that of better constants alone from which effects do harm. [-]"""
@@ -141,7 +143,7 @@ def _rms(residual: Array) -> float:
 
 
 def _interval(residual: Array, rng: np.random.Generator) -> tuple[float, float]:
-    count = max(residual.size // STRETCH, 1)
+    count = max(residual.size // STRETCH, min(residual.size, PIECES))
     means = np.array([np.mean(piece**2) for piece in np.array_split(residual, count)])
     drawn = means[rng.integers(0, count, (DRAWS, count))].mean(1)
     low, high = np.sqrt(np.quantile(drawn, (0.025, 0.975)))

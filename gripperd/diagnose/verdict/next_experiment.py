@@ -24,6 +24,8 @@ from gripperd.model.track import Array
 
 SAMPLING = 0.1
 """Time between samples of a planned sweep. [s]"""
+FAR = (0.05, 0.22)
+"""Contraction that a plan goes to at least, and at most. [-]"""
 WORTH = 9.0
 """Rise of chi² below which a sweep does not tell the rivals apart: 3 sigma. [-]"""
 
@@ -71,8 +73,8 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
             best = rate, sweep, gain
     if best is None:
         why = (
-            f"no sweep of this rig tells {names}: measure one of them on its own, or"
-            " check the sensors with a reference"
+            f"no sweep of pressure and length tells {names}: measure one of them on"
+            " its own, or check the sensors with a reference"
         )
         return Proposal(None, why, "", {}, 0.0)
     _, sweep, gain = best
@@ -86,7 +88,10 @@ def _title(one: Rival, other: Rival) -> str:
 
 def _separation(problem: Problem, sweep: Sweep, one: Rival, other: Rival) -> float:
     """Rise of the misfit of either rival if the other is true, after refitting."""
-    planned = replace(problem, courses=(_course(problem, sweep),), kept=(), dwells=())
+    # Nothing of a plan is slack, whatever force stands in for the one not measured yet.
+    planned = replace(
+        problem, courses=(_course(problem, sweep),), kept=(), dwells=(), slack=-np.inf
+    )
     if not planned.blocks:
         return 0.0
     a = planned.expected(planned.explanation(one.fit.point))
@@ -136,13 +141,13 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
 
 
 def _sweeps(problem: Problem) -> Iterator[Sweep]:
-    """Sweeps any such rig can run, within what was seen of it."""
+    """Sweeps any such rig can run: about as far as it was seen to go."""
     pressures = [c.level("pressure") for c in problem.courses]
     tops = [float(np.nanmax(p)) for p in pressures if np.isfinite(p).any()]
     top = max(tops, default=4e5)
     lengths = [c.level("contraction") for c in problem.courses]
     longest = [float(np.nanmax(h)) for h in lengths if np.isfinite(h).any()]
-    far = float(np.clip(max(longest, default=0.2), 0.05, 0.22))
+    far = float(np.clip(max(longest, default=0.2), *FAR))
     for share in (0.0, 0.5, 1.0):
         for duration in (20.0, 60.0):
             yield _ramp(Kind.ISOMETRIC, top, share * far, duration)

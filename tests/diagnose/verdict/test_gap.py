@@ -7,7 +7,13 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.verdict.gap import Gap, by_signal, gaps, with_usual_sign
+from gripperd.diagnose.verdict.gap import (
+    Gap,
+    _interval,
+    by_signal,
+    gaps,
+    with_usual_sign,
+)
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
 
@@ -186,3 +192,12 @@ def test_sweeps_left_out_rest_as_the_mean_of_the_others(
     for index, sign in after.items():
         expected = np.mean(others) if index in out else before[index]
         assert sign == pytest.approx(expected)
+
+
+def test_few_samples_have_an_interval_as_well() -> None:
+    residual = np.random.default_rng(0).normal(0.0, 3.0, 30)
+    low, high = _interval(residual, np.random.default_rng(1))
+    rms = float(np.mean(residual**2) ** 0.5)
+    # 95 % of the root mean square of 30 normal numbers, by chi squared: 26 % each way.
+    assert 0.6 * rms < low < 0.9 * rms
+    assert 1.1 * rms < high < 1.4 * rms

@@ -143,3 +143,14 @@ def test_dwells_of_the_past_are_no_part_of_what_is_planned() -> None:
     )
     dwelt = replace(problem, dwells=problem.blocks[:1])
     assert proposal(dwelt, *rivals) == proposal(problem, *rivals)
+
+
+def test_a_muscle_that_may_be_slack_is_planned_for_all_the_same() -> None:
+    problem = _problem(rubbing(10.0))
+    rivals = (
+        _rival(problem, CoulombFriction(magnitude=10.0)),
+        _rival(problem, PreslidingHysteresis(near=10.0)),
+    )
+    # A large muscle: below 150 N its force is not told from none.
+    slack = replace(problem, slack=150.0)
+    assert proposal(slack, *rivals).kind is proposal(problem, *rivals).kind
