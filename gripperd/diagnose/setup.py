@@ -13,8 +13,8 @@ from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.constants import constants
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.holdout import split
-from gripperd.diagnose.residuals.loudness import noises_of
-from gripperd.diagnose.residuals.plausible import check_plausible
+from gripperd.diagnose.residuals.loudness import audible, noises_of
+from gripperd.diagnose.residuals.plausible import check_judged, check_plausible
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.stages import INPUTS
@@ -48,11 +48,17 @@ def problem_of(
     sweeps, noises = courses(recording, model.muscle.rest_length)
     if not recording.has("contraction") and recording.has("length"):
         model = replace(model, told_length=model.muscle.rest_length)
-    loud = {signal: noises[signal.value] for signal in INPUTS if signal.value in noises}
+    loud = {
+        signal: audible(noises[signal.value], signal, sweeps)
+        for signal in INPUTS
+        if signal.value in noises
+    }
     rough = Problem(sweeps, model, (), loud, _slack(sweeps, loud))
     check_plausible(rough, recording.name)
     # What is left out later must not even tell how loud the noise is.
-    scales = dict(split(rough).train.full_scale)
+    parts = split(rough)
+    check_judged(parts, recording.name)
+    scales = dict(parts.train.full_scale)
     if any("contraction" in sweep.measured for sweep in sweeps):
         scales[Signal.CONTRACTION] = 1.0
     resting = [i for i, sweep in enumerate(sweeps) if (sweep.direction == 0).sum() > 3]

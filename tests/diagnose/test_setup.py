@@ -112,3 +112,52 @@ def test_a_column_alone_cannot_be_compared_with_anything(alone: str) -> None:
     columns = {"current", "pressure", "contraction", "force"} - {alone}
     with pytest.raises(InputError):
         problem_of(without(recording(), *columns), MODEL, {})
+
+
+def test_a_weight_that_is_told_by_its_name_is_a_force() -> None:
+    # A stand with weights of 300 N, and no load cell: the number never changes.
+    lifted = altered(recording(), ALL, "force", lambda force: 0.0 * force + 300.0)
+    problem = problem_of(lifted, MODEL, {})
+    assert 0 < problem.noises[Signal.FORCE].std < 300.0
+
+
+def test_a_recording_in_which_nothing_varies_is_refused() -> None:
+    still = recording()
+    for column in ("current", "pressure", "contraction", "force"):
+        still = altered(still, ALL, column, lambda value: 0.0 * value + 0.012)
+    with pytest.raises(InputError, match="small: nothing varies"):
+        problem_of(still, MODEL, {})
+
+
+def test_a_sensor_that_shows_nothing_is_named() -> None:
+    dead = altered(recording(), ALL, "pressure", lambda pressure: 0.0 * pressure)
+    with pytest.raises(InputError, match="column pressure_kPa is 0 throughout"):
+        problem_of(dead, MODEL, {})
+
+
+def test_too_few_samples_to_judge_by_are_refused() -> None:
+    plain = without(recording(order=("d", "e")), "current")
+    few = replace(
+        plain,
+        runs=tuple(
+            Run(run.name, {key: value[::8] for key, value in run.columns.items()})
+            for run in plain.runs
+        ),
+    )
+    with pytest.raises(InputError, match="too few samples"):
+        problem_of(few, MODEL, {})
+
+
+@pytest.mark.parametrize(
+    ("factor", "cause"),
+    [
+        pytest.param(-1.0, "is it with the wrong sign, or of another", id="sign"),
+        pytest.param(0.2248, "is it in lbf, or of another muscle", id="lbf"),
+        pytest.param(0.1020, "is it in kgf, or of another muscle", id="kgf"),
+        pytest.param(8.0, "is it of another muscle[?]", id="no unit"),
+    ],
+)
+def test_what_a_column_is_off_by_tells_why(factor: float, cause: str) -> None:
+    off = altered(recording(), ALL, "force", lambda force: factor * force)
+    with pytest.raises(InputError, match=cause):
+        problem_of(off, MODEL, {})

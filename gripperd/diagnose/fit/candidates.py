@@ -89,12 +89,7 @@ def candidates(
         if reason := _unseen(problem, kind, columns):
             unseen[name] = reason
             continue
-        found += [
-            Candidate(name, effect)
-            for effect in forms(kind)
-            if effect.stage in (Stage.SENSOR, Stage.GRIPPER)
-            or effect.signal in problem.signals
-        ]
+        found += [Candidate(name, effect) for effect in forms(kind)]
     found += _wrong_constants(library, problem)
     return tuple(found), unseen
 
@@ -104,12 +99,16 @@ def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> st
     lacking = sorted(kind.needs - columns)
     if lacking:
         return f"{', '.join(lacking)} not measured"
+    plain = kind()
+    elsewhere = plain.stage in (Stage.SENSOR, Stage.GRIPPER)
+    if not elsewhere and plain.signal not in problem.signals:
+        return f"no {plain.signal.value} can be compared"
     basis = BASIS.get(kind.name)
     if basis and basis not in {effect.name for effect in problem.model.effects}:
         return f"{basis} is not in the model"
     if kind.name in SLIDING and not _travelled(problem):
         return "the length never went both ways"
-    if is_table(problem.courses) and (kind.name in TEMPORAL or kind().rest().size):
+    if is_table(problem.courses) and (kind.name in TEMPORAL or plain.rest().size):
         return "the recording is a table of settled points, without time"
     return ""
 

@@ -12,6 +12,7 @@ from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.travel import contracting
+from gripperd.errors import InputError
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
@@ -19,6 +20,8 @@ PAUSE = 40.0
 """A gap this many sampling steps long ends one sweep and begins another."""
 SHORTEST_PAUSE = 2.0
 """Nor is a shorter gap a pause. [s]"""
+LEAST = 4
+"""Samples of a sweep."""
 MOVES = 5e-5
 """Change of current that is a new command: 0.3 % of the span. [A]"""
 
@@ -38,12 +41,23 @@ def courses(
     Returns
     -------
     The sweeps in order, and the quick noise of each measured column.
+
+    Raises
+    ------
+    InputError
+        When no sweep is long enough to be one.
     """
     sweeps = [
         piece
         for run in recording.runs
         for piece in _pieces(_with_contraction(run, rest_length))
     ]
+    if not sweeps:
+        message = (
+            f"{recording.name}: no run has {LEAST} samples without a pause; samples of"
+            " one sweep need the same name in column run"
+        )
+        raise InputError(message, key="run")
     names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
     readings = {
         name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
@@ -95,7 +109,7 @@ def _pieces(run: Run) -> Iterator[Run]:
     long = np.flatnonzero(steps > max(PAUSE * float(np.median(steps)), SHORTEST_PAUSE))
     cuts = [0, *(long + 1), time.size]
     for index, (start, end) in enumerate(pairwise(cuts)):
-        if end - start < 4:
+        if end - start < LEAST:
             continue
         name = run.name if len(cuts) == 2 else f"{run.name}#{index + 1}"
         columns = {key: value[start:end] for key, value in run.columns.items()}

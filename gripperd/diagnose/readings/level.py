@@ -8,6 +8,7 @@ from scipy.optimize import isotonic_regression
 
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.smoothing import LEAP, Smooth, smooth
+from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.travel import contracting, leaning
 from gripperd.model.memory import begin, lag
@@ -15,8 +16,6 @@ from gripperd.model.memory import begin, lag
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
 LATE = (1e-3, 0.03, 0.1, 0.3, 1.0)
 """Lags tried between command and pressure. [s]"""
-STEP = 0.06
-"""Share of a range by which a command moves in one sample where it steps. [-]"""
 QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
@@ -47,11 +46,13 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
     }
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
-        found["contraction"] = _steady(found["contraction"])
+        found["contraction"] = _steady(
+            _leaping(sweep, "contraction", found["contraction"])
+        )
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(sweep, found["pressure"], noises)
     elif "pressure" in found:
-        found["pressure"] = _leaping(sweep, found["pressure"])
+        found["pressure"] = _leaping(sweep, "pressure", found["pressure"])
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -87,13 +88,14 @@ def _steady(known: Smooth) -> Smooth:
     return known._replace(value=out)
 
 
-def _leaping(sweep: Run, plain: Smooth) -> Smooth:
-    """Pressure that may leap, where nothing tells of its steps, if that is likelier.
+def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
+    """Column that may leap, where nothing tells of its steps, if that is likelier.
 
-    A trend that is supple enough for a step leaves the noise in the rests beside it.
+    A trend that is supple enough for a step leaves the noise in the rests beside it,
+    and goes further than the step before it comes back.
     """
-    pressure, time = sweep.columns["pressure"], sweep.columns["time"]
-    leapt = smooth(time, pressure, plain.variance, leap=LEAP)
+    column, time = sweep.columns[name], sweep.columns["time"]
+    leapt = smooth(time, column, plain.variance, leap=LEAP)
     return leapt if leapt.likelihood > plain.likelihood else plain
 
 
@@ -112,8 +114,7 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
     time, variance = sweep.columns["time"], noises["pressure"].slow_variance
     step = np.diff(time, prepend=time[0])
     # Samples so far apart tell nothing of how it went at a leap, but a trend would.
-    leaps = np.abs(np.diff(command, prepend=command[0])) > STEP * np.ptp(command)
-    unknown = leaps & (step > QUICK)
+    unknown = leaps(command, float(np.ptp(command)), step) & (step > QUICK)
     pressure = np.where(unknown, np.nan, pressure)
     best = smooth(time, pressure, variance) if unknown.any() else plain
     for late in LATE:

@@ -15,6 +15,8 @@ import numpy as np
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 
 SHARE = 0.2
 """Of the sweeps that can be spared. [-]"""
@@ -26,6 +28,8 @@ TAIL = 0.25
 """Part of a sweep that is left out then. [-]"""
 FEW_JAWS = 3
 """With fewer sweeps of the jaws none of them can be spared."""
+MARGIN = 0.02
+"""Share of a range by which a sweep may go further than all others. [-]"""
 SURE = 5.0
 """Standard deviations of its noise from which a grip is one. [-]"""
 
@@ -47,7 +51,7 @@ def split(problem: Problem) -> Split:
         cut = [_tail(course) for course in courses]
         names = tuple(f"{course.run} (last quarter)" for course in courses)
     else:
-        out = _spared(courses)
+        out = _spared(problem)
         cut = [
             np.full(len(course), index in out) for index, course in enumerate(courses)
         ]
@@ -63,21 +67,23 @@ def _tail(course: Course) -> Mask:
     return mask
 
 
-def _spared(courses: Sequence[Course]) -> set[int]:
+def _spared(problem: Problem) -> set[int]:
     """Sweeps whose inputs lie inside the range of the rest, spread over the order.
 
-    The first of a recording stays: only it can show a first inflation.
+    The first of a recording stays: only it can show a first inflation. So does the last
+    that shows a signal.
     """
-    wanted = max(1, round(SHARE * len(courses)))
+    courses, shown = problem.courses, _shown(problem)
+    wanted = max(1, round(SHARE * len(shown)))
     top = max(
         float(np.nanmax(course.level("pressure"), initial=0.0)) for course in courses
     )
     inner = [
         index
-        for index in range(1, len(courses))
-        if inside(courses, index) and not _still(courses[index], top)
-    ] or list(range(1, len(courses)))
-    grasps = [index for index, course in enumerate(courses) if _gripped(course)]
+        for index in within(courses)
+        if index > 0 and index in shown and not _still(courses[index], top)
+    ] or [index for index in shown if index > 0]
+    grasps = [index for index in shown if _gripped(courses[index])]
     # One grasp at most: the constants of the jaws are known from the others alone.
     spare = [index for index in inner if index in grasps][-1:]
     # Of three it must be one, or no sweep judges the jaws.
@@ -88,10 +94,22 @@ def _spared(courses: Sequence[Course]) -> set[int]:
     wanted = max(1, wanted - len(spared))
     of_moving = round(wanted * len(moving) / max(len(rest), 1))
     spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
-    jaws = [index for index, course in enumerate(courses) if _opens(course)]
+    jaws = [index for index in shown if _opens(courses[index])]
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
         spared.add(jaws[-1])
+    for index in sorted(spared, reverse=True):
+        left = [shown[place] for place in shown.keys() - spared]
+        if not shown[index] <= set[Signal]().union(*left):
+            spared.remove(index)
     return spared
+
+
+def _shown(problem: Problem) -> dict[int, set[Signal]]:
+    """Signals that each sweep shows, of those that show any, in their order."""
+    shown: dict[int, set[Signal]] = {}
+    for block in problem.blocks:
+        shown.setdefault(block.course, set()).add(block.signal)
+    return dict(sorted(shown.items()))
 
 
 def _spread(places: Sequence[int], count: int) -> list[int]:
@@ -128,25 +146,27 @@ def _still(course: Course, top: float) -> bool:
     return bool(high - low <= HELD * top)
 
 
-def inside(courses: Sequence[Course], index: int) -> bool:
-    """Whether other sweeps reach as far as this one, in every input.
+def within(courses: Sequence[Course]) -> list[int]:
+    """Places of the sweeps that others reach as far as, in every input.
 
     What the jaws do grows with the grip, so that it is one.
     """
+    covered = np.ones(len(courses), dtype=bool)
     for name in ("current", "pressure", "contraction", "temperature", "grip"):
-        own = courses[index].level(name)
-        if not np.isfinite(own).any():
-            continue
-        others = [
-            course.level(name)
-            for place, course in enumerate(courses)
-            if place != index and np.isfinite(course.level(name)).any()
-        ]
-        if not others:
-            return False
-        low = min(float(np.nanmin(other)) for other in others)
-        high = max(float(np.nanmax(other)) for other in others)
-        margin = 0.02 * (high - low)
-        if np.nanmin(own) < low - margin or np.nanmax(own) > high + margin:
-            return False
-    return True
+        levels = [course.level(name) for course in courses]
+        known = np.flatnonzero([np.isfinite(level).any() for level in levels])
+        low = np.array([np.nanmin(levels[place]) for place in known])
+        high = np.array([np.nanmax(levels[place]) for place in known])
+        least, most = -_others_most(-low), _others_most(high)
+        margin = MARGIN * (most - least)
+        covered[known] &= (low >= least - margin) & (high <= most + margin)
+    return np.flatnonzero(covered).tolist()
+
+
+def _others_most(values: Array) -> Array:
+    """Largest of all others, for each of some values; infinite without others."""
+    if values.size < 2:
+        return np.full_like(values, -np.inf)
+    second, first = np.sort(values)[-2:]
+    others: Array = np.where(values < first, first, second)
+    return others

@@ -46,7 +46,7 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
         if is_table(problem.courses):
             # Neighbours are no repeats of each other; instruments of a test stand.
             noise = Noise(POINTS * problem.full_scale[signal], 0.0)
-        noise = _audible(noise, signal, problem.courses)
+        noise = audible(noise, signal, problem.courses)
         asked = problem, residuals, indices
         quiet = [
             *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
@@ -56,8 +56,8 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
     return _handed_on(found, problem)
 
 
-def _audible(noise: Noise, signal: Signal, sweeps: tuple[Course, ...]) -> Noise:
-    """A reading without any noise is still no better than its display."""
+def audible(noise: Noise, signal: Signal, sweeps: tuple[Course, ...]) -> Noise:
+    """Give the noise of a signal: a reading is no better than its display."""
     columns = np.concatenate([sweep.column(signal.value) for sweep in sweeps])
     top = float(np.nanmax(np.abs(columns), initial=0.0)) or 1.0
     return replace(noise, std=max(noise.std, RESOLUTION * top))
@@ -95,4 +95,4 @@ def _of_grip(problem: Problem) -> Noise:
         if block.signal is Signal.GRIP
     ]
     noise = quick_noise(readings, coarse_step(readings))
-    return _audible(noise, Signal.GRIP, problem.courses)
+    return audible(noise, Signal.GRIP, problem.courses)

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.errors import InputError
@@ -11,12 +13,13 @@ from gripperd.model.track import Array
 BELIEVED = (0.27, 3.5)
 """Measured over predicted: real muscles with all their threshold, rubber and bore stay
 within a factor of three, the nearest mistaken unit (lbf for N) is off by 4.4. [-]"""
-COLUMNS = {Signal.PRESSURE: "pressure_kPa", Signal.FORCE: "force_N"}
-"""Along the chain: a pressure in bar makes the force look wrong as well."""
+NEAR = 1.5
+"""Factor within which a column is off by that of a unit. [-]"""
 MISTAKEN = {
-    Signal.FORCE: {"lbf": 0.2248, "kgf": 0.1020, "kN": 1e-3, "mN": 1e3},
     Signal.PRESSURE: {"bar": 1e-2, "psi": 0.1450, "MPa": 1e-3, "Pa": 1e3},
+    Signal.FORCE: {"lbf": 0.2248, "kgf": 0.1020, "kN": 1e-3, "mN": 1e3},
 }
+"""Along the chain: a pressure in bar makes the force look wrong as well."""
 
 
 def check_plausible(problem: Problem, name: str) -> None:
@@ -25,8 +28,8 @@ def check_plausible(problem: Problem, name: str) -> None:
     Raises
     ------
     InputError
-        When no stage can be compared, the length is outside what a braid can do, or a
-        column is off by the factor of a mistaken unit.
+        When no stage can be compared, the length is outside what a braid can do, a
+        sensor shows nothing, or a column is off by the factor of a mistaken unit.
     """
     _check_length(problem, name)
     if not problem.blocks:
@@ -34,10 +37,12 @@ def check_plausible(problem: Problem, name: str) -> None:
             f"{name}: no stage of the model can be compared with what was measured;"
             " a run needs current and pressure, or pressure, contraction and force,"
             " or, with a gripper in the model, opening or grip, at 4 samples or more"
+            " beside all steps"
         )
         raise InputError(message)
     expected = problem.expected(problem.explanation(_nominal(problem)))
-    for signal, column in COLUMNS.items():
+    _check_alive(problem, name)
+    for signal in MISTAKEN:
         pairs = [
             (y, f)
             for block, y, f in zip(
@@ -47,7 +52,7 @@ def check_plausible(problem: Problem, name: str) -> None:
         ]
         if pairs:
             measured, there = map(np.concatenate, zip(*pairs, strict=True))
-            _check_unit(signal, f"{name}: column {column}", measured, there)
+            _check_unit(signal, name, measured, there)
 
 
 def _nominal(problem: Problem) -> Point:
@@ -68,20 +73,55 @@ def _check_length(problem: Problem, name: str) -> None:
             raise InputError(message, key="contraction")
 
 
-def _check_unit(signal: Signal, place: str, measured: Array, expected: Array) -> None:
+def _check_alive(problem: Problem, name: str) -> None:
+    names = {key for course in problem.courses for key in course.measured} - {"time"}
+    columns = [
+        np.concatenate([c.column(key) for c in problem.courses]) for key in names
+    ]
+    if all(np.ptp(column[np.isfinite(column)]) == 0 for column in columns):
+        message = f"{name}: nothing varies: every column keeps its first value"
+        raise InputError(message)
+    for signal, top in problem.full_scale.items():
+        if top == 0:
+            column = BY_QUANTITY[signal.value].name
+            message = f"{name}: column {column} is 0 throughout; is the sensor on?"
+            raise InputError(message, key=column)
+
+
+def _check_unit(signal: Signal, name: str, measured: Array, expected: Array) -> None:
     pulling = np.abs(expected) > 0.2 * np.max(np.abs(expected))
     power = float(expected[pulling] @ expected[pulling])
     ratio = float(measured[pulling] @ expected[pulling]) / power if power > 0 else 1.0
     low, high = BELIEVED
     if low < ratio < high:
         return
-    units = MISTAKEN[signal]
-    near = min(
-        units, key=lambda unit: abs(np.log(abs(ratio) + 1e-12) - np.log(units[unit]))
-    )
+    column = BY_QUANTITY[signal.value].name
+    causes = [
+        f"in {unit}"
+        for unit, factor in MISTAKEN[signal].items()
+        if factor / NEAR < abs(ratio) < factor * NEAR
+    ]
+    if ratio < 0:
+        causes.insert(0, "with the wrong sign")
+    causes.append("of another muscle")
     message = (
-        f"{place} is {ratio:.3g} times what the model gives,"
-        f" believable is {low:g} to {high:g}; is it in {near}, of another muscle,"
-        " or with the wrong sign?"
+        f"{name}: column {column} is {ratio:.3g} times what the model gives,"
+        f" believable is {low:g} to {high:g}; is it {', or '.join(causes)}?"
     )
-    raise InputError(message, key=COLUMNS[signal])
+    raise InputError(message, key=column)
+
+
+def check_judged(parts: Split, name: str) -> None:
+    """Refuse a recording of which nothing can be left out to judge by.
+
+    Raises
+    ------
+    InputError
+        When no sample can be compared in one of its two parts.
+    """
+    if not (parts.train.blocks and parts.test.blocks):
+        message = (
+            f"{name}: too few samples can be compared to leave some out and judge by"
+            " them; record more sweeps, or more samples of each"
+        )
+        raise InputError(message)

@@ -49,7 +49,7 @@ class Problem:
             for signal in predictable(course):
                 if signal not in self.noises or not self._has_part(signal):
                     continue
-                good = usable(course, signal, course.hush(signal.value))
+                good = usable(course, signal)
                 if signal is Signal.FORCE:
                     good &= course.level("force") > self.slack
                 if self.kept:
@@ -82,7 +82,9 @@ class Problem:
     def reach(self, point: Point) -> Array:
         """How far each constant may be off, in widths of its prior."""
         reach = np.array([constant.reach for constant in self.constants])
-        reach[list(point.freed)] = NUISANCE
+        # Tolerances that were loosened were searched no further than that.
+        if not point.looser:
+            reach[list(point.freed)] = NUISANCE
         return reach
 
     def explanation(self, point: Point) -> Explanation:

@@ -8,7 +8,7 @@ from scipy.ndimage import uniform_filter1d
 
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
-from gripperd.diagnose.readings.level import STEP
+from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.travel import (
     STUCK,
     leaning,
@@ -35,7 +35,7 @@ LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
 
 
-def usable(course: Course, signal: Signal, noise: float) -> Mask:
+def usable(course: Course, signal: Signal) -> Mask:
     """Samples of a signal that say something about its stage.
 
     Parameters
@@ -44,8 +44,6 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
         The sweep.
     signal
         What is predicted.
-    noise
-        One sigma of it, as a mean of many samples has it. [SI]
     """
     measured = course.column(signal.value)
     good = np.isfinite(measured)
@@ -53,7 +51,9 @@ def usable(course: Course, signal: Signal, noise: float) -> Mask:
         good &= np.isfinite(course.level(name))
     if signal is Signal.GRIP:
         # Without contact the jaws are moved by the muscle alone and press on nothing.
-        good &= (measured > PRESSED * noise) & np.isfinite(course.column("force"))
+        good &= (measured > PRESSED * course.hush("grip")) & np.isfinite(
+            course.column("force")
+        )
         good &= ~_turning(leaning(course.level("force")))
     sweeps = "pressure" in course.smooth and not is_table((course,))
     if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):
@@ -184,12 +184,8 @@ def _widened(near: Mask, reach: int) -> Mask:
 
 def _transients(course: Course) -> Mask:
     """Samples next to a step of pressure: two sensors never see it at once."""
-    pressure = course.level("pressure")
-    jump = np.abs(np.diff(pressure, prepend=pressure[0]))
-    top = max(float(np.nanmax(np.abs(pressure))), 1.0)
-    near = jump > STEP * top
-    current = course.column("current")
+    pressure, current = course.level("pressure"), course.column("current")
+    near = leaps(pressure, float(np.nanmax(np.abs(pressure))), course.step)
     if np.isfinite(current).all():
-        step = np.abs(np.diff(current, prepend=current[0]))
-        near |= step > STEP * float(np.max(np.abs(current)))
+        near |= leaps(current, float(np.max(np.abs(current))), course.step)
     return _widened(near, 2)

@@ -163,3 +163,14 @@ def test_channels_that_are_late_are_candidates_of_several_kinds() -> None:
     assert kinds == {("channel_delay", "force"), ("channel_delay", "contraction")}
     creeps = {Candidate("creep", form).kind for form in forms(Creep)}
     assert creeps == {("creep",)}
+
+
+def test_what_acts_on_a_signal_that_nothing_shows_says_so(blank: Problem) -> None:
+    courses = tuple(
+        replace(one, measured={k: v for k, v in one.measured.items() if k != "force"})
+        for one in blank.courses
+    )
+    listed, unseen = candidates(EFFECTS, replace(blank, courses=courses), MEASURED)
+    assert "threshold_pressure" not in _names(listed)
+    assert unseen["threshold_pressure"] == "no force can be compared"
+    assert "valve_gain" in _names(listed)

@@ -5,6 +5,7 @@ import pytest
 
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.errors import InputError
 from tests.diagnose.cycled import CORNER, REST_LENGTH, SIZE, WAY, cut, cycled
 from tests.diagnose.sweep import noise, run, triangle
 
@@ -108,3 +109,12 @@ def test_sweeps_come_in_the_order_of_the_recording() -> None:
     parts = cut(*runs)
     assert [course.run for course in parts] == ["x", "y", "z"]
     assert all(a.time[-1] < b.time[0] for a, b in pairwise(parts))
+
+
+def test_runs_too_short_to_be_sweeps_are_refused() -> None:
+    pieces = tuple(
+        Run(f"{place}", {"time": place + np.arange(3.0), "pressure": np.ones(3)})
+        for place in range(100)
+    )
+    with pytest.raises(InputError, match="no run has 4 samples without a pause"):
+        courses(Recording("torn", "0" * 64, pieces), REST_LENGTH)

@@ -120,3 +120,19 @@ def test_force_that_does_not_go_with_the_pressure_keeps_its_own_trend() -> None:
         )
     )
     assert np.std(course.level("force") - force) < 0.3
+
+
+def test_a_free_muscle_that_leaps_does_not_come_back() -> None:
+    # Twenty samples a second; the step of the valve is over in three of them.
+    true = np.repeat([0.0, 0.051], 60)
+    true[60:62] = 0.0446, 0.0485
+    for seed in range(5):
+        (course,) = cut(
+            run(
+                time=0.05 * np.arange(120.0),
+                pressure=np.repeat([55e3, 353e3], 60) + noise(120, 2e3, seed),
+                contraction=true + noise(120, 2e-4, seed + 9),
+            )
+        )
+        assert (course.direction[60:] == 1.0).all()
+        assert np.abs(course.level("contraction") - true).max() < 4e-4

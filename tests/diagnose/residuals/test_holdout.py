@@ -142,3 +142,33 @@ def test_of_two_grasps_the_stronger_is_never_spared(
 ) -> None:
     problem, names = _grasps(blank, pulls)
     assert names[pulls.index(60)] not in split(problem).runs
+
+
+def test_the_last_sweep_that_shows_a_signal_stays(blank: Problem) -> None:
+    out = split(blank).runs[0]
+    # Only that sweep has a load cell.
+    courses = tuple(
+        one
+        if one.run == out
+        else replace(
+            one, measured={k: v for k, v in one.measured.items() if k != "force"}
+        )
+        for one in blank.courses
+    )
+    found = split(replace(blank, courses=courses))
+    assert set(found.train.signals) == set(blank.signals)
+    assert out not in found.runs
+
+
+def test_sweeps_that_show_nothing_are_not_left_out(blank: Problem) -> None:
+    shown = ("b", "e", "b2")
+    courses = tuple(
+        one
+        if one.run in shown
+        else replace(one, measured={"time": one.time, "pressure": one.time})
+        for one in blank.courses
+    )
+    found = split(replace(blank, courses=courses))
+    assert set(found.runs) < set(shown)
+    for part in (found.train, found.test):
+        assert set(part.signals) == set(blank.signals)

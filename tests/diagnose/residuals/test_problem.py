@@ -114,3 +114,11 @@ def test_a_wrong_constant_reaches_as_far_as_its_prior_lets_it(
     np.testing.assert_array_equal(
         np.delete(freed, diameter), np.delete(bound, diameter)
     )
+
+
+def test_loosened_tolerances_were_searched_no_further(blank: Problem) -> None:
+    start = Point(np.zeros(len(blank.constants)))
+    freed = replace(start, freed=frozenset({0}))
+    looser = replace(freed, looser=(2.0,) * len(blank.constants))
+    assert blank.reach(freed)[0] > blank.reach(start)[0]
+    assert blank.reach(looser)[0] == blank.reach(start)[0]

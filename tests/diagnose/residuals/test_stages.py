@@ -51,7 +51,7 @@ def _one(model: Explanation, course: Course, signal: Signal) -> Array:
 
 @pytest.mark.parametrize("name", ["a", "b", "c", "d", "e", "vented"])
 def test_the_force_is_that_of_the_paper(silent: dict[str, Course], name: str) -> None:
-    good = usable(silent[name], Signal.FORCE, 3.0)
+    good = usable(silent[name], Signal.FORCE)
     force = _one(MODEL, silent[name], Signal.FORCE)
     paper = textbook(moments()[name])
     np.testing.assert_allclose(force[good], paper[good], atol=0.5)
