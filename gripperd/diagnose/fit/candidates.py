@@ -140,6 +140,14 @@ def is_exact(candidate: Candidate) -> bool:
     return plain and (not known or effect.name in LINEAR)
 
 
+def is_plain(candidate: Candidate) -> bool:
+    """Tell whether it is an offset or a factor of a reading, the same at all times."""
+    effect = candidate.effect
+    if effect is None or not is_exact(candidate):
+        return False
+    return not any(one.starts or one.choices for one in parameters(effect).values())
+
+
 def forms(kind: type[Effect]) -> list[Effect]:
     """Give an effect in all the shapes from which a search starts."""
     known = parameters(kind)

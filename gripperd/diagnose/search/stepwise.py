@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.null import null_gains
 from gripperd.diagnose.fit.polish import polished
@@ -29,6 +29,8 @@ FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
 LEAST = 20.0
 """Gain below which no model of a rig is known well enough: odds of 5e8. [nat]"""
+LEAST_PLAIN = 8.0
+"""The same of an offset or a factor, which little resembles: odds of 3000. [nat]"""
 MISFIT = 2.0
 """Mean square of what the best explanation leaves, from which it is not noise. [-]"""
 HOPELESS = 150.0
@@ -95,19 +97,21 @@ def _pass(
     singles = {member: around.fit(member).evidence - base for member in around.members}
     gains = _by_name(singles)
     nulls = null_gains(around, around.members, rng)
-    # Noise as loud as the misfit holds the doubt about the model already.
-    least = 0.0 if problem.is_hot else LEAST
-    threshold = max(float(np.quantile(nulls, 1 - FALSE_ALARMS)), least)
+    chance = float(np.quantile(nulls, 1 - FALSE_ALARMS))
     rivals = [null]
     # What is hot is weighed even so: only a fit tells how loud the rest really is.
-    if problem.is_hot or max(gains.values(), default=0.0) > threshold:
+    if problem.is_hot or any(
+        gain > max(chance, _least(problem, [member.candidate]))
+        for member, gain in singles.items()
+    ):
         # A table has so few samples that every form can be fitted in full.
         thrifty = not is_table(problem.courses)
         sets = finalists(problem, around, singles, thrifty=thrifty)
         rivals += [_fitted(problem, null.fit.point, members) for members in sets]
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
-    best = _best(problem, null, rivals, threshold)
+    best = _best(problem, null, rivals, chance)
+    threshold = max(chance, 0.0 if problem.is_hot else LEAST)
     rivals.sort(key=lambda rival: -rival.evidence)
     return Found(
         problem, null, best, tuple(rivals), threshold, gains, around.faint, nulls
@@ -144,7 +148,7 @@ def _with_bore(
 
 
 def _best(
-    problem: Problem, null: Rival, rivals: Sequence[Rival], threshold: float
+    problem: Problem, null: Rival, rivals: Sequence[Rival], chance: float
 ) -> Rival:
     """The simplest explanation that no larger one beats by its price."""
     best = null
@@ -153,9 +157,19 @@ def _best(
         if not of_size:
             continue
         champion = preferred(problem, of_size)
+        new = [one for one in champion.candidates if one.name not in best.names]
+        threshold = max(chance, _least(problem, new))
         if worth(problem, null, best, champion, threshold):
             best = champion
     return best
+
+
+def _least(problem: Problem, candidates: Sequence[Candidate]) -> float:
+    """Gain below which they are not believed, be it more than chance. [nat]."""
+    # Noise as loud as the misfit holds the doubt about the model already.
+    if problem.is_hot:
+        return 0.0
+    return LEAST_PLAIN if all(is_plain(one) for one in candidates) else LEAST
 
 
 def _grown(found: Found, listed: Sequence[Candidate]) -> Found:

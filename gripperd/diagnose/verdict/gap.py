@@ -116,17 +116,21 @@ def with_usual_sign(train: Problem, point: Point) -> Point:
     """Give sweeps that were left out the mean sign of friction of those that were not.
 
     How the rig came to rest in them is as unknown as in the others, and not fitted.
+    Those that never move are set up alike, and so are those that move off from rest.
     """
     fitted = {block.course for block in train.blocks}
     signs = train.explanation(point).rests
-    known = [sign for course, sign in signs.items() if course in fitted]
-    usual = float(np.mean(known)) if known else 0.0
+    moves = [bool(course.direction.any()) for course in train.courses]
     shifts = point.shifts.copy()
     for index, constant in enumerate(train.constants):
-        if constant.course is not None and constant.course not in fitted:
-            # Of its own nothing was fitted: what it has is what all share.
-            own = together(usual, -signs[constant.course])
-            shifts[index] = own / constant.sigma
+        own = constant.course
+        if own is None or own in fitted:
+            continue
+        known = {course: sign for course, sign in signs.items() if course in fitted}
+        alike = [sign for course, sign in known.items() if moves[course] == moves[own]]
+        usual = float(np.mean(alike or [*known.values()] or [0.0]))
+        # Of its own nothing was fitted: what it has is what all share.
+        shifts[index] = together(usual, -signs[own]) / constant.sigma
     return replace(point, shifts=shifts)
 
 

@@ -15,7 +15,7 @@ from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, added
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.price import acts_on
+from gripperd.diagnose.search.price import SEEN, acts_on
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InSensor
@@ -79,4 +79,5 @@ def jump(found: Found, best: Contest) -> Jump | None:
         return None
     (told,) = foil.fit.point.effects
     assert isinstance(told, Jump)
-    return told
+    # One that is no more than sensors drift is a drift.
+    return told if abs(told.size) > SEEN * problem.full_scale[Signal.FORCE] else None

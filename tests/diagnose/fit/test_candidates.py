@@ -8,6 +8,7 @@ from gripperd.diagnose.fit.candidates import (
     candidates,
     forms,
     is_exact,
+    is_plain,
 )
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
@@ -174,3 +175,24 @@ def test_what_acts_on_a_signal_that_nothing_shows_says_so(blank: Problem) -> Non
     assert "threshold_pressure" not in _names(listed)
     assert unseen["threshold_pressure"] == "no force can be compared"
     assert "valve_gain" in _names(listed)
+
+
+@pytest.mark.parametrize(
+    ("name", "plain"),
+    [
+        ("force_sensor_gain", True),
+        ("pressure_sensor_bias", True),
+        ("length_datum", True),
+        ("valve_gain", True),
+        ("force_sensor_drift", False),
+        ("channel_delay", False),
+        ("valve_lag", False),
+        ("rubber_elasticity", False),
+    ],
+)
+def test_an_offset_or_a_factor_is_plain(name: str, *, plain: bool) -> None:
+    assert is_plain(Candidate(name, EFFECTS[name]())) is plain
+
+
+def test_a_wrong_constant_is_no_plain_effect() -> None:
+    assert not is_plain(Candidate("parameter:muscle.diameter", None, 0))

@@ -1,3 +1,5 @@
+from math import radians
+
 import numpy as np
 import pytest
 
@@ -6,6 +8,7 @@ from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
+from gripperd.effects.force_sensor_gain import ForceSensorGain
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.track import Array
 from tests.diagnose.fitted import fitted
@@ -14,6 +17,8 @@ from tests.diagnose.small import (
     MODEL,
     Hidden,
     Moment,
+    altered,
+    moments,
     nothing,
     pinned,
     recording,
@@ -21,6 +26,15 @@ from tests.diagnose.small import (
     tabled,
     threshold,
 )
+
+KNOWN = {
+    "muscle.diameter": 1e-4,
+    "muscle.braid_angle": radians(0.15),
+    "muscle.rest_length": 1e-4,
+}
+"""Tolerances that leave a factor of the force to nothing else."""
+GAIN = Candidate("force_sensor_gain", ForceSensorGain(error=0.02))
+THRESHOLD = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
 
 
 def _both(moment: Moment) -> Array:
@@ -108,3 +122,19 @@ def test_of_a_table_every_form_is_fitted_in_full_of_sweeps_the_likeliest(
     assert set(heard) <= set(listed)
     fits = [fitted(found.problem, one).evidence for one in listed]
     assert found.best.evidence == pytest.approx(max(fits), abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("factor", "hidden", "candidate", "told"),
+    [
+        pytest.param(1.055, nothing, GAIN, True, id="a factor"),
+        pytest.param(1.0, threshold(3.2), THRESHOLD, False, id="a form of ours"),
+    ],
+)
+def test_at_odds_of_a_few_thousand_only_what_little_resembles_is_named(
+    factor: float, hidden: Hidden, candidate: Candidate, *, told: bool
+) -> None:
+    off = altered(recording(hidden), moments(), "force", lambda force: factor * force)
+    found = search(problem_of(off, MODEL, KNOWN), [candidate], np.random.default_rng(0))
+    assert 8.0 < found.gains[candidate.name] < 20.0
+    assert found.best.names == ((candidate.name,) if told else ())

@@ -201,3 +201,29 @@ def test_few_samples_have_an_interval_as_well() -> None:
     # 95 % of the root mean square of 30 normal numbers, by chi squared: 26 % each way.
     assert 0.6 * rms < low < 0.9 * rms
     assert 1.1 * rms < high < 1.4 * rms
+
+
+def test_sweeps_that_never_move_come_to_rest_like_those_that_do_not_either(
+    blank: Problem,
+) -> None:
+    resting = {"b": 0.9, "c": 0.9, "vented": 0.9, "a": 0.9}
+    place = {one.path: i for i, one in enumerate(blank.constants)}
+    courses = {course.run: i for i, course in enumerate(blank.courses)}
+    shifts = np.zeros(len(blank.constants))
+    for run, sign in resting.items():
+        index = place[f"rest.{courses[run]}"]
+        shifts[index] = sign / blank.constants[index].sigma
+    # As if one that rests were the first of a ride.
+    ridden = tuple(
+        replace(one, direction=np.where(one.time > one.time[5], 1.0, 0.0))
+        if one.run == "a"
+        else one
+        for one in blank.courses
+    )
+    index = place[f"rest.{courses['a']}"]
+    shifts[index] = -0.9 / blank.constants[index].sigma
+    kept = tuple(np.full(len(course), course.run != "b2") for course in ridden)
+    train = replace(blank, courses=ridden, kept=kept)
+    point = with_usual_sign(train, Point(shifts))
+    sign = train.explanation(point).rests[courses["b2"]]
+    assert sign == pytest.approx(0.9, abs=1e-6)

@@ -75,3 +75,9 @@ def test_the_truth_behind_a_jump_is_the_reading_without_it() -> None:
     pull = np.full(track.time.size, 100.0)
     read = seen.along(pull, track, seen.rest())
     assert seen.truth(read, track) == pytest.approx(pull)
+
+
+def test_what_sensors_drift_is_no_jump(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Were it usual that sensors drift by 60 of the 1200 N.
+    monkeypatch.setattr("gripperd.diagnose.verdict.jump.SEEN", 0.05)
+    assert _seen(_slipped)[1] is None
