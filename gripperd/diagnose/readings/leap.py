@@ -7,9 +7,11 @@ from gripperd.model.track import Array
 
 STEP = 0.06
 """Share of its reach by which a column moves in one sample where it steps. [-]"""
-SLOW = 0.1
+ALIKE = 0.75
+"""Share of a change that its neighbours have in a ramp: what settles has less. [-]"""
+SLOW = 0.18
 """Time between samples in which two sensors have seen the same: cells, hoses and
-regulators answer within 10 to 60 ms. [s]"""
+regulators answer within 10 to 60 ms, three times as long is enough. [s]"""
 
 
 def leaps(value: Array, reach: float, step: Array) -> Mask:
@@ -26,5 +28,5 @@ def leaps(value: Array, reach: float, step: Array) -> Mask:
     """
     change = np.abs(np.diff(value, prepend=value[0]))
     beside = np.minimum(np.roll(change, 1), np.roll(change, -1))
-    ramps = (beside > change / 2) & (step >= SLOW)
+    ramps = (beside > ALIKE * change) & (step >= SLOW)
     return (change > STEP * reach) & ~ramps

@@ -33,3 +33,9 @@ def test_a_step_leaps_however_slow_the_samples(seconds: float) -> None:
 
 def test_a_small_change_is_no_leap() -> None:
     assert _leaps(np.repeat([0.0, 0.05 * REACH], 8), 0.02) == []
+
+
+def test_what_settles_after_a_step_is_no_ramp() -> None:
+    # A lag of 0.3 s, five samples a second: each change is half the one before.
+    settling = REACH * (1 - np.exp(-np.maximum(np.arange(20) - 8, 0) / 1.5))
+    assert _leaps(settling, 0.2) == [9, 10, 11, 12]
