@@ -35,6 +35,7 @@ class ChannelDelay(InSensor):
         "viscous_friction", "valve_lag", "linkage_backlash",
     )  # fmt: skip
     remedy: ClassVar[str] = "sample all channels at once, or shift this one in time"
+    timed: ClassVar[bool] = True
 
     delay: float = amplitude(unit="ms", scale=0.05, low=0.0, high=1.0)
     """Age of a reading. [s]"""

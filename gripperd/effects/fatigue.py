@@ -42,6 +42,7 @@ class Fatigue(InMuscle):
     remedy: ClassVar[str] = (
         "count the inflations, calibrate again, and change the muscle in time"
     )
+    timed: ClassVar[bool] = True
 
     loss: float = amplitude(unit="per_cycle", scale=0.002, low=0.0, high=0.05)
     """Share of the pull lost in each inflation, a. [-]"""

@@ -50,6 +50,7 @@ class FirstCycle(InMuscle):
     )
     confused_with: ClassVar[tuple[str, ...]] = ("fatigue", "creep")
     remedy: ClassVar[str] = "inflate the muscle a few times before work"
+    timed: ClassVar[bool] = True
 
     gain: float = amplitude(unit=None, scale=0.05, low=-1.0, high=1.0)
     """Share of the pull that the first has on top, a. [-]"""

@@ -36,6 +36,7 @@ class ForceSensorDrift(InSensor):
         "creep", "fatigue", "force_sensor_bias",
     )  # fmt: skip
     remedy: ClassVar[str] = "let the amplifier warm up, and tare before each run"
+    timed: ClassVar[bool] = True
 
     rate: float = amplitude(unit="N_per_s", scale=0.01, low=-10.0, high=10.0)
     """First growth of reading minus truth, 0 at the start of the recording. [N/s]"""

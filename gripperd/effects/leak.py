@@ -40,6 +40,7 @@ class Leak(InValve):
     )
     confused_with: ClassVar[tuple[str, ...]] = ("creep", "supply_saturation")
     remedy: ClassVar[str] = "find the leak with soap water, fittings first"
+    timed: ClassVar[bool] = True
 
     rate: float = amplitude(unit="per_s", scale=1e-3, low=0.0, high=1.0)
     """Pressure lost per pressure and time, valve shut. [1/s]"""

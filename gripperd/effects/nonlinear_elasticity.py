@@ -32,6 +32,7 @@ class NonlinearElasticity(ElasticCurve):
         "rubber_elasticity", "tapered_ends", "length_datum",
     )  # fmt: skip
     remedy: ClassVar[str] = "add the measured elastic curve of the bladder to the model"
+    basis: ClassVar[str] = "rubber_elasticity"
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Minus the elastic force beyond eq. (5). [N]."""

@@ -80,6 +80,12 @@ class Effect(Protocol):
     """Names of effects that look alike in many recordings."""
     remedy: ClassVar[str]
     """What a person can do about it, one sentence."""
+    travels: ClassVar[bool]
+    """Whether it has no sign without travel."""
+    timed: ClassVar[bool]
+    """Whether time or order counts, beside what it remembers."""
+    basis: ClassVar[str]
+    """Name of the effect it departs from, empty for none."""
 
     @property
     def signal(self) -> Signal:

@@ -11,9 +11,12 @@ from gripperd.model.track import Array, Track
 
 
 class Memoryless:
-    """Nothing of the past matters."""
+    """Nothing of the past matters, nor does the way or the clock."""
 
     __slots__ = ()
+    travels: ClassVar[bool] = False
+    timed: ClassVar[bool] = False
+    basis: ClassVar[str] = ""
 
     def rest(self) -> Array:
         """No memory."""

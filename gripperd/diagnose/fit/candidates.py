@@ -14,25 +14,10 @@ from gripperd.model.effect import Effect, Stage
 from gripperd.model.parameter import parameters
 
 LINEAR = ("valve_offset", "valve_gain")
-SLIDING = frozenset({
-    "coulomb_friction", "pressure_friction", "braid_friction", "presliding_hysteresis",
-    "viscous_friction", "linkage_friction", "linkage_backlash",
-})  # fmt: skip
-"""Effects of travel, which have no sign where there is none."""
-TEMPORAL = frozenset({
-    "viscous_friction", "fatigue", "first_cycle", "leak", "force_sensor_drift",
-    "channel_delay",
-})  # fmt: skip
-"""Effects in which time or order counts, beside those with a memory."""
 SAME: Mapping[str, str] = MappingProxyType({
     "valve.pressure_low": "valve_offset", "valve.pressure_high": "valve_gain",
 })  # fmt: skip
 """Constants that are wrong in just the way in which an effect shows."""
-BASIS: Mapping[str, str] = MappingProxyType({
-    "nonlinear_elasticity": "rubber_elasticity",
-    "pressure_friction": "braid_friction",
-})  # fmt: skip
-"""What an effect departs from: without it there is nothing to depart from."""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -103,12 +88,12 @@ def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> st
     elsewhere = plain.stage in (Stage.SENSOR, Stage.GRIPPER)
     if not elsewhere and plain.signal not in problem.signals:
         return f"no {plain.signal.value} can be compared"
-    basis = BASIS.get(kind.name)
+    basis = kind.basis
     if basis and basis not in {effect.name for effect in problem.model.effects}:
         return f"{basis} is not in the model"
-    if kind.name in SLIDING and not _travelled(problem):
+    if kind.travels and not _travelled(problem):
         return "the length never went both ways"
-    if is_table(problem.courses) and (kind.name in TEMPORAL or plain.rest().size):
+    if is_table(problem.courses) and (kind.timed or plain.rest().size):
         return "the recording is a table of settled points, without time"
     return ""
 
