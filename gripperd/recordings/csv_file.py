@@ -24,6 +24,7 @@ NUMBER = re.compile(
 DECIMAL_COMMA = re.compile(r"[-+]?[0-9]+,[0-9]+")
 ENDING = re.compile(rb"\r\n|\n|\r|\Z")
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
+NOT_UTF8 = "is not UTF-8 text; save it as such"
 LONGEST_HEADER = 100_000
 """Bytes."""
 
@@ -55,7 +56,7 @@ class CsvFile:
         try:
             text = line.decode()
         except UnicodeDecodeError:
-            raise _refused(place, "is not UTF-8 text") from None
+            raise _refused(place, NOT_UTF8) from None
         names = tuple(name.strip() for name in _cells(text))
         for separator, plural in SEPARATORS.items():
             if len(names) == 1 and separator in text:
@@ -100,7 +101,7 @@ class CsvFile:
             try:
                 cells = _cells(line.decode())
             except UnicodeDecodeError:
-                return _refused(place, "is not UTF-8 text")
+                return _refused(place, NOT_UTF8)
             if len(cells) != len(self.names):
                 detail = f"{len(cells)} cells under {len(self.names)} names"
                 return _refused(place, detail)

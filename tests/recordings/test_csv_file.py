@@ -67,7 +67,7 @@ def test_a_line_that_is_not_utf_8_is_named(write: Write, complaint: Complaint) -
     columns["run"] = ["Öl"] * 30
     path = write(columns)
     path.write_bytes(path.read_text().encode("latin-1"))
-    assert complaint(path) == "rig.csv:2: is not UTF-8 text"
+    assert complaint(path) == "rig.csv:2: is not UTF-8 text; save it as such"
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ what is left is then taken for noise, or every constant would be torn. [-]"""
 
 
 def temperatures_of(fit: Polished) -> dict[Signal, float]:
-    """Mean square of what is left, whitened; 1 where it is the noise alone."""
+    """Mean square of what is left, whitened; 1 where it is little more than noise."""
     shares = {signal: fit.misfits[signal] / n for signal, n in fit.counts.items()}
     return {
         s: share if share > HOT or share < 1 else 1.0 for s, share in shares.items()
