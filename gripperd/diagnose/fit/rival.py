@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
-from gripperd.diagnose.fit.polish import Polished
+from gripperd.diagnose.fit.polish import Polished, polished
 from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,12 @@ class Rival:
     def excess(self) -> float:
         """Chi² above what noise alone has. [-]."""
         return float(sum(self.fit.misfits.values())) - self.fit.samples
+
+
+def larger(problem: Problem, rival: Rival, candidate: Candidate) -> Rival:
+    """Give an explanation with one more, everything fitted anew."""
+    point = added(rival.fit.point, candidate)
+    return Rival((*rival.candidates, candidate), polished(problem, point))
 
 
 def added(point: Point, candidate: Candidate) -> Point:

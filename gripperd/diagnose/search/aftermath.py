@@ -8,7 +8,7 @@ from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.crossing import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.polish import Polished, polished
-from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.rival import Rival, added, larger
 from gripperd.diagnose.fit.temperature import cooled
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.point import Point
@@ -162,13 +162,7 @@ def _is_cause(kind: Aftermath, candidate: Candidate) -> bool:
 
 def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival]:
     """Give it with one more, best first."""
-    found = [
-        Rival(
-            (*here.candidates, one.candidate),
-            polished(problem, added(here.fit.point, one.candidate)),
-        )
-        for one in more
-    ]
+    found = [larger(problem, here, one.candidate) for one in more]
     return sorted(found, key=lambda rival: -rival.evidence)
 
 

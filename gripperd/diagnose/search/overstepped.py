@@ -5,8 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
-from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.rival import Rival, larger
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.preference import BORE, at_edge
@@ -42,7 +41,7 @@ def with_overstepped(
     if not (problem.is_hot and here.candidates) or here.fit.point.freed:
         return best
     freed = [
-        Rival((*here.candidates, one), polished(problem, added(here.fit.point, one)))
+        larger(problem, here, one)
         for one in listed
         if one.name in at_edge(problem, here)
     ]

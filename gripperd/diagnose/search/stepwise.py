@@ -15,7 +15,7 @@ from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.null import null_gains
 from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.rival import Rival, added, larger
 from gripperd.diagnose.fit.temperature import louder, plain, reached, temperatures_of
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.point import Point
@@ -140,11 +140,7 @@ def _with_bore(
     held = BORE in at_edge(problem, rival) and BORE not in rival.names
     if not (problem.is_hot and held):
         return []
-    return [
-        Rival((*rival.candidates, one), polished(problem, added(rival.fit.point, one)))
-        for one in listed
-        if one.name == BORE
-    ]
+    return [larger(problem, rival, one) for one in listed if one.name == BORE]
 
 
 def _best(
@@ -181,10 +177,7 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
         base = around.fit().evidence
         singles = {m: around.fit(m).evidence - base for m in around.members}
         grown = [
-            Rival(
-                (*best.candidates, member.candidate),
-                polished(problem, added(best.fit.point, member.candidate)),
-            )
+            larger(problem, best, member.candidate)
             for (member,) in heard(problem, [(m,) for m in leaders(singles)], NEXT)
             if singles[member] > found.threshold
         ]

@@ -12,8 +12,7 @@ import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.design import design
-from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.rival import larger
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import SEEN, acts_on
 from gripperd.diagnose.search.rivalry import Contest
@@ -68,13 +67,12 @@ def jump(found: Found, best: Contest) -> Jump | None:
         for c in problem.courses
     )
     moments = [(end + start) / 2 for (_, end), (start, _) in pairwise(spans)]
-    start = found.null.fit.point
     listed = [Candidate(Jump.name, Jump(size=10.0, at=moment)) for moment in moments]
-    around = design(problem, start, listed)
+    around = design(problem, found.null.fit.point, listed)
     if not around.members:
         return None
     leader = max(around.members, key=lambda one: around.fit(one).evidence).candidate
-    foil = Rival((leader,), polished(problem, added(start, leader)))
+    foil = larger(problem, found.null, leader)
     if foil.evidence <= best.best.evidence:
         return None
     (told,) = foil.fit.point.effects
