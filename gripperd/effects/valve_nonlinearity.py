@@ -36,7 +36,7 @@ class ValveNonlinearity(InValve):
         "measured pressure bows away from the line against the current, most in the"
         " middle and nothing at the ends"
     )
-    confused_with: ClassVar[tuple[str, ...]] = ("supply_saturation",)
+    confused_with: ClassVar[tuple[str, ...]] = ("supply_saturation", "valve_gain")
     remedy: ClassVar[str] = "calibrate the regulator at several currents"
 
     bow: float = amplitude(unit="kPa", scale=5e3, low=-100e3, high=100e3)
