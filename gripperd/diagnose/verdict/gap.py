@@ -113,10 +113,11 @@ def gaps(
 
 
 def with_usual_sign(train: Problem, point: Point) -> Point:
-    """Give sweeps that were left out the mean sign of friction of those that were not.
+    """Give sweeps that were left out the usual sign of friction of those that were not.
 
     How the rig came to rest in them is as unknown as in the others, and not fitted.
-    Those that never move are set up alike, and so are those that move off from rest.
+    Those that never move are set up alike, and so are those that move off from rest;
+    few that came the other way change nothing (median).
     """
     fitted = {block.course for block in train.blocks}
     signs = train.explanation(point).rests
@@ -128,7 +129,7 @@ def with_usual_sign(train: Problem, point: Point) -> Point:
             continue
         known = {course: sign for course, sign in signs.items() if course in fitted}
         alike = [sign for course, sign in known.items() if moves[course] == moves[own]]
-        usual = float(np.mean(alike or [*known.values()] or [0.0]))
+        usual = float(np.median(alike or [*known.values()] or [0.0]))
         # Of its own nothing was fitted: what it has is what all share.
         shifts[index] = together(usual, -signs[own]) / constant.sigma
     return replace(point, shifts=shifts)
