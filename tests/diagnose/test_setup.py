@@ -125,6 +125,14 @@ def test_a_recording_in_which_nothing_varies_is_refused() -> None:
     still = recording()
     for column in ("current", "pressure", "contraction", "force"):
         still = altered(still, ALL, column, lambda value: 0.0 * value + 0.012)
+    # Nor does a column that was never written.
+    still = replace(
+        still,
+        runs=tuple(
+            Run(run.name, {**run.columns, "grip": np.full(len(run), np.nan)})
+            for run in still.runs
+        ),
+    )
     with pytest.raises(InputError, match="small: nothing varies"):
         problem_of(still, MODEL, {})
 

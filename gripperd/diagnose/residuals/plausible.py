@@ -78,7 +78,8 @@ def _check_alive(problem: Problem, name: str) -> None:
     columns = [
         np.concatenate([c.column(key) for c in problem.courses]) for key in names
     ]
-    if all(np.ptp(column[np.isfinite(column)]) == 0 for column in columns):
+    seen = [column[np.isfinite(column)] for column in columns]
+    if not any(column.size and np.ptp(column) for column in seen):
         message = f"{name}: nothing varies: every column keeps its first value"
         raise InputError(message)
     for signal, top in problem.full_scale.items():
