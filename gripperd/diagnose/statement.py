@@ -125,14 +125,15 @@ def _closed(diagnosis: Diagnosis) -> str:
         return ""
     gap = diagnosis.gaps[diagnosis.main]
     column = BY_QUANTITY[diagnosis.main.value]
-    before, after, floor = (
-        f"{value / column.scale:.3g}"
-        for value in (gap.before, gap.after, gap.noise_floor)
+    before, better, after, floor = (
+        f"{value / column.scale:.3g} {column.unit}"
+        for value in (gap.before, gap.recalibrated, gap.after, gap.noise_floor)
     )
+    # What better constants close is no merit of an effect.
+    beside = f" ({better} with better constants alone)" if better != after else ""
     return (
         f"; on data it never saw the {diagnosis.main.value} is off by"
-        f" {after} {column.unit} instead of {before} {column.unit}, and repeats"
-        f" by {floor} {column.unit}"
+        f" {after} instead of {before}{beside}, and repeats by {floor}"
     )
 
 

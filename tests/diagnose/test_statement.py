@@ -108,7 +108,8 @@ def test_an_open_question_does_not_hide_what_is_sure(creep: Diagnosis) -> None:
     assert summary(two) == (
         "The model lacks creep, and this recording cannot tell a wrong diameter from"
         " tapered ends or leak, nor valve lag from channel delay; on data it never saw"
-        " the force is off by 2.62 N instead of 29.6 N, and repeats by 3.04 N."
+        " the force is off by 2.62 N instead of 29.6 N (11.7 N with better constants"
+        " alone), and repeats by 3.04 N."
     )
     assert summary(replace(two, named=(lag,))).startswith(
         "The model is off, and this recording cannot tell valve lag from channel delay;"
@@ -131,7 +132,8 @@ def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:
     said = summary(replace(creep, gaps={Signal.FORCE: gap}))
     assert said == (
         "The model lacks creep; on data it never saw the force is off by 2.62 N"
-        " instead of 29.6 N, and repeats by 3.04 N."
+        " instead of 29.6 N (11.7 N with better constants alone), and repeats by"
+        " 3.04 N."
     )
 
 
