@@ -81,6 +81,7 @@ def marks(answers: Sequence[Answer]) -> list[Mark]:
         _mark("  the same against the sensors' floor", 0.90, closed_truly, floored),
         _mark("all: worse than recalibrated constants", -0.02, worsened, answers),
         _mark("  the same of the signal that is spoilt", -0.02, spoilt, answers),
+        _mark("  the same of any above 1.15 stated floor", -0.02, harmed, answers),
         _mark("all: error", -0.0, lambda one: bool(one.error), answers),
     ]
 
@@ -161,6 +162,14 @@ def spoilt(one: Answer) -> bool:
     """Whether the signal that the hidden effect spoils is worse off so."""
     left = residue(one)
     return left is not None and left.after > WORSE * left.recalibrated
+
+
+def harmed(one: Answer) -> bool:
+    """Whether any signal is worse off and is not down at the noise."""
+    return any(
+        gap.after > max(WORSE * gap.recalibrated, CLOSED * gap.stated_floor)
+        for gap in one.gaps.values()
+    )
 
 
 def worst(singles: Sequence[Answer]) -> Mark:

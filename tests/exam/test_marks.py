@@ -13,6 +13,7 @@ from tests.exam.marks import (
     closed,
     confident,
     exact,
+    harmed,
     misled,
     spoilt,
     staged,
@@ -102,6 +103,15 @@ def test_another_signal_that_is_worse_is_not_the_spoilt_one(
     again = replace(one, gaps=gaps)
     assert worsened(again)
     assert spoilt(again) is worse
+
+
+@pytest.mark.parametrize(("floor", "harm"), [(8.0, True), (9.0, False)])
+def test_what_is_worse_within_the_noise_does_no_harm(floor: float, harm: bool) -> None:
+    one = answer("named", "creep")
+    gaps = {"grip": Residue(20.0, 10.0, 10.2, floor, 5.0)}
+    again = replace(one, gaps=gaps)
+    assert worsened(again)
+    assert harmed(again) is harm
 
 
 @pytest.mark.parametrize(
