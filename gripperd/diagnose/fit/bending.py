@@ -34,7 +34,7 @@ LEVELS: Mapping[Signal, tuple[str, ...]] = MappingProxyType({
 """What an effect in a signal may be a function of, beside the time."""
 
 
-def forms(rival: Rival) -> tuple[str, ...]:
+def bendable(rival: Rival) -> tuple[str, ...]:
     """Names of the effects of an explanation that could have another form."""
     return tuple(
         one.name for one in rival.candidates if one.effect and not is_exact(one)

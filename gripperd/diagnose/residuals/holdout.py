@@ -15,6 +15,7 @@ import numpy as np
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.usable import PRESSED
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -30,8 +31,6 @@ FEW_JAWS = 3
 """With fewer sweeps of the jaws none of them can be spared."""
 MARGIN = 0.02
 """Share of a range by which a sweep may go further than all others. [-]"""
-SURE = 5.0
-"""Standard deviations of its noise from which a grip is one. [-]"""
 
 
 @dataclass(frozen=True)
@@ -127,7 +126,7 @@ def _opens(course: Course) -> bool:
 def _gripped(course: Course) -> bool:
     """Whether jaws press on something."""
     grip = course.column("grip")
-    return bool(np.nanmax(grip, initial=0.0) > course.hush("grip") * SURE)
+    return bool(np.nanmax(grip, initial=0.0) > course.hush("grip") * PRESSED)
 
 
 def _travelled(course: Course) -> bool:

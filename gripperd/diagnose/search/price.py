@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.fit.bending import bent, forms
+from gripperd.diagnose.fit.bending import bendable, bent
 from gripperd.diagnose.fit.candidates import Candidate, is_exact
 from gripperd.diagnose.fit.crossing import bears_out
 from gripperd.diagnose.fit.rival import Rival
@@ -99,7 +99,7 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     further = best.fit.cost - larger.fit.cost
     gained = _gained(problem, best, larger)
     there = {one.name for one in best.candidates if acts_on(problem, one) & gained}
-    bending = [name for name in forms(best) if name in there & {*larger.names}]
+    bending = [name for name in bendable(best) if name in there & {*larger.names}]
     before, after = (bent(problem, one, bending) for one in (best, larger))
     least = LEAST_OWN if bending else 2 * LEAST_MORE
     kept = MENDED if paid and not _looks_like(best, larger, bending) else OWN

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.fit.bending import bent, forms
+from gripperd.diagnose.fit.bending import bendable, bent
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
@@ -37,7 +37,7 @@ def _share(hidden: Hidden, first: Effect, further: Effect) -> float:
     best, larger = fitted(problem, one), fitted(problem, one, other)
     further_closed = best.fit.cost - larger.fit.cost
     assert further_closed > 50.0
-    before, after = (bent(problem, rival, forms(best)) for rival in (best, larger))
+    before, after = (bent(problem, rival, bendable(best)) for rival in (best, larger))
     return (before - after) / further_closed
 
 
