@@ -46,9 +46,7 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
     }
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
-        found["contraction"] = _steady(
-            _leaping(sweep, "contraction", found["contraction"])
-        )
+        found["contraction"] = _steady(_unswung(sweep, found["contraction"]))
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(sweep, found["pressure"], noises)
     elif "pressure" in found:
@@ -91,12 +89,21 @@ def _steady(known: Smooth) -> Smooth:
 def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
     """Column that may leap, where nothing tells of its steps, if that is likelier.
 
-    A trend that is supple enough for a step leaves the noise in the rests beside it,
-    and goes further than the step before it comes back.
+    A trend that is supple enough for a step leaves the noise in the rests beside it.
     """
     column, time = sweep.columns[name], sweep.columns["time"]
     leapt = smooth(time, column, plain.variance, leap=LEAP)
     return leapt if leapt.likelihood > plain.likelihood else plain
+
+
+def _unswung(sweep: Run, plain: Smooth) -> Smooth:
+    """Contraction that may leap, if it turns less often so.
+
+    A trend goes further than a step of a free muscle, and swings back.
+    """
+    leapt = _leaping(sweep, "contraction", plain)
+    turns = [np.count_nonzero(np.diff(contracting(one))) for one in (leapt, plain)]
+    return leapt if turns[0] < turns[1] else plain
 
 
 def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:
