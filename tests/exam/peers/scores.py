@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from rich.table import Table
 
-from tests.exam.marks import WORSE, Mark
+from tests.exam.marks import CLOSED, WORSE, Mark
 from tests.exam.peers.classes import families
 from tests.exam.peers.contest import METHODS, OURS, Outcome, Turn
 from tests.exam.peers.exhibit import Guess
@@ -44,6 +44,15 @@ class Seen:
         return any(self.guess.after[s] > WORSE * before[s] for s in before)
 
     @property
+    def harmed(self) -> bool:
+        """Whether any signal is worse off so, and is not down at the noise."""
+        before, floors = self.outcome.recalibrated, self.outcome.floors
+        return any(
+            self.guess.after[s] > max(WORSE * before[s], CLOSED * floors[s])
+            for s in before
+        )
+
+    @property
     def gap(self) -> float:
         """Held-out residual over the noise floor, in the signal of the effect."""
         signal = self.outcome.hidden[0].signal
@@ -61,6 +70,7 @@ def side_by_side(outcomes: Sequence[Outcome]) -> Table:
         "false alarms",
         "gap / floor",
         "made worse",
+        "above noise",
         "seconds",
         title=f"{len(outcomes)} cases, the same for all",
     )
@@ -74,7 +84,7 @@ def _line(name: str, turns: Sequence[tuple[Outcome, Turn]]) -> tuple[str, ...]:
     seen = [Seen(outcome, turn.guess) for outcome, turn in turns if turn.guess]
     failed = [turn.error for _, turn in turns if not turn.guess]
     if not seen:
-        return (failed[0].splitlines()[-1] if failed else "", *[""] * 5)
+        return (failed[0].splitlines()[-1] if failed else "", *[""] * 6)
     singles = [one for one in seen if one.outcome.question.kind == "single"]
     nothing = [one for one in seen if one.outcome.question.kind in ("none", "drift")]
     gap = np.median([one.gap for one in singles]) if singles else np.nan
@@ -85,6 +95,7 @@ def _line(name: str, turns: Sequence[tuple[Outcome, Turn]]) -> tuple[str, ...]:
         _share(nothing, lambda one: one.alarmed),
         f"{gap:.2f}",
         _share(seen, lambda one: one.worse),
+        _share(seen, lambda one: one.harmed),
         f"{seconds:.1f}" + (f", {len(failed)} failed" if failed else ""),
     )
 
