@@ -20,6 +20,8 @@ QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
+BRIEF = 4
+"""Samples in a row in which a muscle leaps. [-]"""
 LEAST = 20
 """Samples that a plane is laid through."""
 
@@ -97,13 +99,13 @@ def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
 
 
 def _unswung(sweep: Run, plain: Smooth) -> Smooth:
-    """Contraction that may leap, if it turns less often so.
+    """Contraction that may leap, if it is there at once.
 
-    A trend goes further than a step of a free muscle, and swings back.
+    A trend goes further than a step of a free muscle, and swings back. But what takes
+    many samples for its step swings itself.
     """
     leapt = _leaping(sweep, "contraction", plain)
-    turns = [np.count_nonzero(np.diff(contracting(one))) for one in (leapt, plain)]
-    return leapt if turns[0] < turns[1] else plain
+    return leapt if leapt.longest <= BRIEF else plain
 
 
 def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:

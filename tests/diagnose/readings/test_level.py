@@ -138,3 +138,14 @@ def test_a_free_muscle_that_leaps_does_not_come_back() -> None:
         off = np.abs(course.level("contraction") - true)
         # Beside the step it may be off: nothing is weighed there. 0.15 % is a travel.
         assert np.concatenate([off[:55], off[66:]]).max() < 1e-3
+
+
+def test_a_load_that_swings_after_a_step_does_not_leap() -> None:
+    # Fifty samples a second; after the step it swings at 5 Hz and comes to rest.
+    since = np.maximum(np.arange(1500) - 500, 0) / 50.0
+    swing = 1 - np.exp(-since / 0.15) * np.cos(2 * np.pi * 5 * since)
+    measured = 0.03 * swing + noise(1500, 1e-4)
+    time = 0.02 * np.arange(1500.0)
+    (course,) = cut(run(time=time, contraction=measured, pressure=300e3 * swing))
+    assert smooth(time, measured, 1e-8, leap=LEAP).longest > 4
+    assert course.smooth["contraction"].longest == 0
