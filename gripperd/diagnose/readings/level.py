@@ -20,7 +20,7 @@ QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
-BRIEF = 4
+BRIEF = 6
 """Samples in a row in which a muscle leaps. [-]"""
 LEAST = 20
 """Samples that a plane is laid through."""

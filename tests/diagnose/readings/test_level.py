@@ -147,5 +147,5 @@ def test_a_load_that_swings_after_a_step_does_not_leap() -> None:
     measured = 0.03 * swing + noise(1500, 1e-4)
     time = 0.02 * np.arange(1500.0)
     (course,) = cut(run(time=time, contraction=measured, pressure=300e3 * swing))
-    assert smooth(time, measured, 1e-8, leap=LEAP).longest > 4
+    assert smooth(time, measured, 1e-8, leap=LEAP).longest > 6
     assert course.smooth["contraction"].longest == 0
