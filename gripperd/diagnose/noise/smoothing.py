@@ -36,8 +36,8 @@ class Smooth(NamedTuple):
     """Of the noise that was taken off, as :func:`smooth` was told."""
     spread: float = 0.0
     """Standard deviation of the value amid the column, as the past alone has it."""
-    longest: int = 0
-    """Samples in a row to which it leapt."""
+    leapt: tuple[slice, ...] = ()
+    """Rows of samples to which it leapt, one after the other."""
 
 
 def smooth(
@@ -79,14 +79,13 @@ def smooth(
         max(likelihoods) if np.mean(leaps > 0) < SELDOM else -np.inf,
         variance,
         float(np.sqrt(np.median(spreads[:, 0]))) * float(scale),
-        _longest(leaps > 0),
+        _rows(leaps > 0),
     )
 
 
-def _longest(found: NDArray[np.bool_]) -> int:
-    """Length of the longest row of samples that were found."""
+def _rows(found: NDArray[np.bool_]) -> tuple[slice, ...]:
     ends = np.flatnonzero(np.diff(found, prepend=False, append=False))
-    return int(np.max(ends[1::2] - ends[::2], initial=0))
+    return tuple(slice(*pair) for pair in ends.reshape(-1, 2).tolist())
 
 
 def _filter(

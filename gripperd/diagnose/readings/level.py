@@ -10,7 +10,7 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.smoothing import LEAP, Smooth, smooth
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.recording import Run
-from gripperd.diagnose.readings.travel import contracting, leaning
+from gripperd.diagnose.readings.travel import contracting, leaning, reversal
 from gripperd.model.memory import begin, lag
 
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
@@ -20,8 +20,6 @@ QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
-BRIEF = 6
-"""Samples in a row in which a muscle leaps. [-]"""
 LEAST = 20
 """Samples that a plane is laid through."""
 
@@ -99,13 +97,19 @@ def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
 
 
 def _unswung(sweep: Run, plain: Smooth) -> Smooth:
-    """Contraction that may leap, if it is there at once.
+    """Contraction that may leap, if it goes but one way when it does.
 
-    A trend goes further than a step of a free muscle, and swings back. But what takes
-    many samples for its step swings itself.
+    A trend goes further than a step of a free muscle, and comes back. A load may swing
+    in earnest: then it is no leap.
     """
-    leapt = _leaping(sweep, "contraction", plain)
-    return leapt if leapt.longest <= BRIEF else plain
+    known = _leaping(sweep, "contraction", plain)
+    least = reversal(known.spread)
+    for row in known.leapt:
+        ways = np.diff(known.value[row.start - 1 : row.stop])
+        back = min(np.sum(ways[ways > 0]), -np.sum(ways[ways < 0]))
+        if back > least:
+            return plain
+    return known
 
 
 def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:

@@ -93,11 +93,11 @@ def _density(column: Array, std: float, stiffness: float) -> float:
     return float(multivariate_normal(np.zeros(60), covariance).logpdf(scaled))
 
 
-def test_it_tells_how_many_samples_in_a_row_leapt() -> None:
+def test_it_tells_which_samples_in_a_row_leapt() -> None:
     time = np.arange(100.0)
     step = np.where(time < 50, 0.0, 100.0)
     stairs = step + np.where(time > 51, 100.0, 0.0) + np.where(time > 50, 100.0, 0.0)
     noise = np.random.default_rng(4).normal(0.0, 1.0, 100)
-    assert smooth(time, noise, 1.0, leap=5.0).longest == 0
-    assert smooth(time, step + noise, 1.0, leap=5.0).longest == 1
-    assert smooth(time, stairs + noise, 1.0, leap=5.0).longest == 3
+    assert smooth(time, noise, 1.0, leap=5.0).leapt == ()
+    assert smooth(time, step + noise, 1.0, leap=5.0).leapt == (slice(50, 51),)
+    assert smooth(time, stairs + noise, 1.0, leap=5.0).leapt == (slice(50, 53),)
