@@ -87,7 +87,7 @@ def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> st
     plain = kind()
     elsewhere = plain.stage in (Stage.SENSOR, Stage.GRIPPER)
     if not elsewhere and plain.signal not in problem.signals:
-        return f"no {plain.signal.value} can be compared"
+        return f"no sample of the {plain.signal.value} can be compared"
     basis = kind.basis
     if basis and basis not in {effect.name for effect in problem.model.effects}:
         return f"{basis} is not in the model"

@@ -121,13 +121,13 @@ def with_usual_sign(train: Problem, point: Point) -> Point:
     """
     fitted = {block.course for block in train.blocks}
     signs = train.explanation(point).rests
+    known = {course: sign for course, sign in signs.items() if course in fitted}
     moves = [bool(course.direction.any()) for course in train.courses]
     shifts = point.shifts.copy()
     for index, constant in enumerate(train.constants):
         own = constant.course
         if own is None or own in fitted:
             continue
-        known = {course: sign for course, sign in signs.items() if course in fitted}
         alike = [sign for course, sign in known.items() if moves[course] == moves[own]]
         usual = float(np.median(alike or [*known.values()] or [0.0]))
         # Of its own nothing was fitted: what it has is what all share.

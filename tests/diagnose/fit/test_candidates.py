@@ -173,7 +173,7 @@ def test_what_acts_on_a_signal_that_nothing_shows_says_so(blank: Problem) -> Non
     )
     listed, unseen = candidates(EFFECTS, replace(blank, courses=courses), MEASURED)
     assert "threshold_pressure" not in _names(listed)
-    assert unseen["threshold_pressure"] == "no force can be compared"
+    assert unseen["threshold_pressure"] == "no sample of the force can be compared"
     assert "valve_gain" in _names(listed)
 
 
