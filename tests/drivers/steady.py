@@ -1,11 +1,15 @@
 """Time-outs that a stall of the whole machine does not use up.
 
 Where both ends of a line live in one event loop, a stall keeps the far end from
-answering as well as this end from listening.
+answering as well as this end from listening. A pseudo terminal may stall on its own:
+a thread of the kernel passes its octets on, and waits for a processor as all do.
 """
 
 import asyncio
+import os
 import time
+import tty
+import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -14,26 +18,40 @@ from gripperd.drivers.bus import Bus
 from gripperd.drivers.line import Connector, Line
 
 MOST = 2e-3
-"""By which the clock moves on between two turns of the event loop at most. [s]"""
+"""By which the clock moves on at most, from one turn to the next. [s]"""
 
 
 class Clock:
-    """Goes on as real time does, but at most by `MOST` in one turn of the loop."""
+    """Goes on as real time does, but at most by `MOST` while an octet is on its way.
+
+    It has crossed a pseudo terminal, and the event loop, when the next one sets out.
+    """
 
     def __init__(self, line: Line[Any]) -> None:
         self._line = line
         self._loop = asyncio.get_running_loop()
         self._time = self._real = time.monotonic()
-        self._tick()
+        self._near, self._far = os.openpty()
+        for end in (self._near, self._far):
+            weakref.finalize(self, os.close, end)
+        tty.setraw(self._far)
+        self._loop.add_reader(self._far, self._tick)
+        self._send()
 
     def now(self) -> float:
         return self._time + min(time.monotonic() - self._real, MOST)
 
     def _tick(self) -> None:
         """Begin a turn, and another one soon, as long as the line is open."""
+        os.read(self._far, 1)
         self._time, self._real = self.now(), time.monotonic()
-        if not self._line.closed.is_set():
-            self._loop.call_later(MOST / 2, self._tick)
+        if self._line.closed.is_set():
+            self._loop.remove_reader(self._far)
+        else:
+            self._loop.call_later(MOST / 2, self._send)
+
+    def _send(self) -> None:
+        os.write(self._near, b"\0")
 
 
 class Steadied:
