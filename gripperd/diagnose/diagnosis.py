@@ -260,7 +260,7 @@ def _without_verdict(
         seed=seed,
         split=parts,
         found=Found(parts.train, null, null, (), 0.0, {}, (), np.empty(0)),
-        contest=Contest(null, (), ()),
+        contest=Contest(null),
         conclusion=unusable(),
     )
 
@@ -271,7 +271,7 @@ def _columns(recording: Recording) -> frozenset[str]:
 
 
 def _next(problem: Problem, best: Contest) -> Proposal | None:
-    for rivals in best.rivals:
-        if rivals:
-            return proposal(problem, best.best, rivals[0])
+    for place in best.places:
+        if place.rivals:
+            return proposal(problem, best.best, place.rivals[0])
     return None

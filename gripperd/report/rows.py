@@ -129,7 +129,7 @@ def overruled(diagnosis: Diagnosis) -> bool:
 
 def _fitted(diagnosis: Diagnosis) -> list[Rival]:
     contest = diagnosis.contest
-    rivals = [contest.best, *(one for row in contest.rivals for one in row)]
+    rivals = [contest.best, *(one for place in contest.places for one in place.rivals)]
     return rivals + [one for one in diagnosis.found.rivals if one.names]
 
 

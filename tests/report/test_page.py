@@ -8,6 +8,7 @@ from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Contradiction, Kind, Rejection
+from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.statement import summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.extrapolation import Extrapolation
@@ -183,6 +184,11 @@ def at_cost(rival: Rival, cost: float) -> Rival:
     return replace(rival, fit=replace(rival.fit, cost=cost))
 
 
+def _rivalled(told: Diagnosis, rival: Rival) -> Contest:
+    """Who could be meant as well, and nobody else."""
+    return Contest(told.contest.best, (Place(told.found.null, (rival,)),))
+
+
 def test_what_adds_nothing_is_no_explanation_of_its_own(creep: Diagnosis) -> None:
     best = creep.contest.best
     other = next(one for one in creep.found.rivals if "creep" not in one.names)
@@ -191,7 +197,7 @@ def test_what_adds_nothing_is_no_explanation_of_its_own(creep: Diagnosis) -> Non
     # Half the cost is evidence; a twentieth of a nat is nothing.
     for loss, is_told in ((0.0, False), (0.08, False), (4.0, True), (-4.0, True)):
         rival = at_cost(more, best.fit.cost + loss)
-        contest = replace(creep.contest, rivals=((rival,),))
+        contest = _rivalled(creep, rival)
         found = replace(creep.found, rivals=())
         text = written(replace(creep, contest=contest, found=found))
         assert (f"{name}</th>" in text) is is_told
@@ -202,7 +208,7 @@ def test_it_says_why_more_evidence_may_be_passed_over(
 ) -> None:
     assert "ahead by evidence alone" not in text
     ahead = at_cost(creep.found.rivals[0], creep.contest.best.fit.cost - 1e3)
-    contest = replace(creep.contest, rivals=((ahead,),))
+    contest = _rivalled(creep, ahead)
     assert "ahead by evidence alone" in written(replace(creep, contest=contest))
 
 
@@ -211,9 +217,7 @@ def test_a_tenth_of_a_nat_is_no_lead(
     creep: Diagnosis, ahead: float, said: bool
 ) -> None:
     best = creep.contest.best
-    contest = replace(
-        creep.contest, rivals=((at_cost(best, best.fit.cost - 2 * ahead),),)
-    )
+    contest = _rivalled(creep, at_cost(best, best.fit.cost - 2 * ahead))
     assert overruled(replace(creep, contest=contest)) is said
 
 

@@ -18,7 +18,7 @@ from gripperd.diagnose.search.dwell import dwelling, misfit, stilled
 from gripperd.diagnose.search.finalists import leaders
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import LEAST_MORE, MUCH, is_fault
-from gripperd.diagnose.search.rivalry import SURE, Contest, needed, removed
+from gripperd.diagnose.search.rivalry import SURE, Contest, Place, needed, removed
 from gripperd.model.effect import Signal
 
 NEXT = 2
@@ -116,16 +116,13 @@ def _with(
     stand_ins = _stand_ins(best) | {own: alike}
     causes = _kinds((*going, *lasting))
     rivals = sorted((*tried, *causes, *others), key=lambda rival: -rival.evidence)
+    places = (
+        Place(bare, tuple(_weighed(problem, told, index, stand_ins.get(one, []))))
+        for index, (one, bare) in enumerate(zip(told.candidates, without, strict=True))
+    )
     return (
         replace(found, problem=problem, best=told, rivals=tuple(rivals)),
-        Contest(
-            told,
-            without,
-            tuple(
-                tuple(_weighed(problem, told, place, stand_ins.get(one, [])))
-                for place, one in enumerate(told.candidates)
-            ),
-        ),
+        Contest(told, tuple(places)),
     )
 
 
@@ -194,22 +191,22 @@ def _takes_its_share(
 def _stand_ins(best: Contest) -> dict[Candidate, list[Candidate]]:
     """What fitted as well in the place of each candidate."""
     return {
-        one: [rival.candidates[place] for rival in rivals]
-        for place, (one, rivals) in enumerate(
-            zip(best.best.candidates, best.rivals, strict=True)
+        one: [rival.candidates[index] for rival in place.rivals]
+        for index, (one, place) in enumerate(
+            zip(best.best.candidates, best.places, strict=True)
         )
     }
 
 
 def _weighed(
-    problem: Problem, told: Rival, place: int, stand_ins: Sequence[Candidate]
+    problem: Problem, told: Rival, index: int, stand_ins: Sequence[Candidate]
 ) -> Iterator[Rival]:
     """Give what fits as well in a place."""
-    bare = removed(problem, told.fit.point, told.candidates[place])
+    bare = removed(problem, told.fit.point, told.candidates[index])
     for one in stand_ins:
         if one.name in told.names:
             continue
-        candidates = (*told.candidates[:place], one, *told.candidates[place + 1 :])
+        candidates = (*told.candidates[:index], one, *told.candidates[index + 1 :])
         rival = Rival(candidates, polished(problem, added(bare, one)))
         if told.evidence - rival.evidence < SURE:
             yield rival

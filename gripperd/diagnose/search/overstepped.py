@@ -10,7 +10,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.preference import BORE, at_edge
 from gripperd.diagnose.search.price import LEAST_MORE
-from gripperd.diagnose.search.rivalry import Contest, without_each
+from gripperd.diagnose.search.rivalry import Contest, Place, without_each
 
 KIN = 0.5
 """Share of the gain from which another constant could be the wrong one. [-]"""
@@ -52,11 +52,9 @@ def with_overstepped(
     kin = [one for one in freed if one.evidence - here.evidence > KIN * most]
     kin.sort(key=lambda rival: -rival.evidence)
     told = next((one for one in kin if BORE in one.names), kin[0])
-    return Contest(
-        told,
-        without_each(problem, told),
-        (*best.rivals, tuple(rival for rival in kin if rival is not told)),
-    )
+    others = tuple(rival for rival in kin if rival is not told)
+    alike = (*(place.rivals for place in best.places), others)
+    return Contest(told, tuple(map(Place, without_each(problem, told), alike)))
 
 
 def _is_far_off(problem: Problem, freed: Rival) -> bool:

@@ -73,5 +73,6 @@ def with_other_length(
         if alone[0].evidence - rival.evidence < STRONG and name not in known:
             stead = (rival.candidates[0], *best.best.candidates[1:])
             further.setdefault(name, Rival(stead, rival.fit))
-    rivals = (*best.rivals[0], *further.values())
-    return replace(best, rivals=(rivals, *best.rivals[1:]))
+    first, *others = best.places
+    first = replace(first, rivals=(*first.rivals, *further.values()))
+    return replace(best, places=(first, *others))

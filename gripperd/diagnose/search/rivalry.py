@@ -31,21 +31,29 @@ formula is that of nature. [-]"""
 
 
 @dataclass(frozen=True)
+class Place:
+    """Where a candidate of the best explanation stands."""
+
+    without: Rival
+    """The best with nobody in it."""
+    rivals: tuple[Rival, ...] = ()
+    """Those that fit as well with another in it."""
+
+
+@dataclass(frozen=True)
 class Contest:
     """The best explanation after every exchange, and who could stand in for whom."""
 
     best: Rival
-    without: tuple[Rival, ...]
-    """For each candidate of the best, the best without it."""
-    rivals: tuple[tuple[Rival, ...], ...]
-    """For each candidate of the best, those that fit as well without it."""
+    places: tuple[Place, ...] = ()
+    """One for each candidate of the best, in the same order."""
 
     @property
     def equivalents(self) -> tuple[tuple[str, ...], ...]:
         """For each candidate of the best, the names that fit as well."""
         return tuple(
-            tuple(rival.candidates[index].name for rival in rivals)
-            for index, rivals in enumerate(self.rivals)
+            tuple(rival.candidates[index].name for rival in place.rivals)
+            for index, place in enumerate(self.places)
         )
 
 
@@ -70,19 +78,17 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
         challenged = _all_challenged(found.problem, best, listed)
     closed = found.null.fit.cost - best.fit.cost
     margin = _margin(best, closed)
-    return Contest(
-        best,
-        tuple(without for without, _ in challenged),
-        tuple(
-            tuple(
-                rival
-                for rival in sorted(rivals, key=lambda one: -one.evidence)
-                if best.evidence - rival.evidence < margin
-                and _stands_in(found.problem, best, index, rival, margin)
-            )
-            for index, (_, rivals) in enumerate(challenged)
-        ),
-    )
+    places = []
+    for index, (without, rivals) in enumerate(challenged):
+        rivals.sort(key=lambda one: -one.evidence)
+        alike = (
+            rival
+            for rival in rivals
+            if best.evidence - rival.evidence < margin
+            and _stands_in(found.problem, best, index, rival, margin)
+        )
+        places.append(Place(without, tuple(alike)))
+    return Contest(best, tuple(places))
 
 
 def _all_challenged(

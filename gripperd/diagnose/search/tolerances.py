@@ -8,7 +8,7 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.constants import TOLERATED
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import SURE, Contest
+from gripperd.diagnose.search.rivalry import SURE, Contest, Place
 
 THIRD = 3.0
 """How much too tight a stated tolerance may be: a limit is often taken for three sigma,
@@ -42,7 +42,8 @@ def with_usual_tolerances(found: Found, best: Contest) -> Contest:
         return best
     alike = (here,) if lead <= SURE and here.names[0] not in rival.names else ()
     # They go together: none of them is an explanation without the others.
-    return Contest(rival, (found.null,) * count, (alike, *((),) * (count - 1)))
+    others = (Place(found.null),) * (count - 1)
+    return Contest(rival, (Place(found.null, alike), *others))
 
 
 def _beyond(problem: Problem, fit: Polished) -> Rival:

@@ -71,7 +71,7 @@ def _described(
     rival, problem = best.best, found.problem
     point = rival.fit.point
     effect = next((e for e in point.effects if e.name == candidate.name), None)
-    without = best.without[index]
+    without = best.places[index].without
     signal, size = _size(problem, rival, candidate)
     gap = judged.get(signal)
     return Named(

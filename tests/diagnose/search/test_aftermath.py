@@ -10,7 +10,7 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.search import dwell, price
 from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import SURE, Contest, contest
+from gripperd.diagnose.search.rivalry import SURE, Contest, Place, contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.creep import Creep
@@ -60,8 +60,8 @@ def test_what_creeps_far_below_the_misfit_is_told() -> None:
     after, told = _told(found, best)
     assert told.best.names == ("threshold_pressure", "creep")
     assert after.best is told.best
-    assert len(told.without) == len(told.rivals) == 2
-    assert [one.names for one in told.without] == [("creep",), ("threshold_pressure",)]
+    without = [place.without.names for place in told.places]
+    assert without == [("creep",), ("threshold_pressure",)]
 
 
 def test_beside_tolerances_that_are_too_tight_nothing_is_told() -> None:
@@ -127,7 +127,7 @@ def test_what_takes_most_of_the_levels_is_told_with_it() -> None:
     _, told = _told(found, best)
     # The bias is idle beside what it stood for.
     assert told.best.names == ("threshold_pressure", "creep")
-    assert len(told.without) == len(told.rivals) == 2
+    assert len(told.places) == 2
 
 
 def _with_rival(
@@ -137,12 +137,13 @@ def _with_rival(
     place = best.best.names.index(name)
     own = best.best.candidates
     assert candidate.effect is not None
-    point = best.without[place].fit.point.with_effect(candidate.effect)
+    point = best.places[place].without.fit.point.with_effect(candidate.effect)
     rival = Rival(
         (*own[:place], candidate, *own[place + 1 :]), polished(found.problem, point)
     )
-    rivals = tuple((rival,) if i == place else () for i in range(len(own)))
-    return replace(best, rivals=rivals)
+    bare = (one.without for one in best.places)
+    places = (Place(b, (rival,) if i == place else ()) for i, b in enumerate(bare))
+    return replace(best, places=tuple(places))
 
 
 def _stiff(moment: Moment) -> Array:
@@ -169,14 +170,14 @@ def test_a_rival_that_falls_behind_is_one_no_more() -> None:
     found, best = _ended(threshold(60.0), creeping(0.02))
     _, told = _told(found, _with_rival(found, best, LEVELS[1]))
     assert told.best.names == ("threshold_pressure", "creep")
-    assert told.rivals[0] == ()
+    assert told.places[0].rivals == ()
 
 
 def test_a_rival_that_fits_as_well_beside_creep_stays_one() -> None:
     found, best = _ended(threshold(60.0), creeping(0.02))
     twin = Candidate("twin", ThresholdPressure(pressure=30e3))
     _, told = _told(found, _with_rival(found, best, twin))
-    (rival,) = told.rivals[0]
+    (rival,) = told.places[0].rivals
     assert rival.names == ("twin", "creep")
     # It has come from elsewhere to the same place, or as good as.
     assert rival.evidence == pytest.approx(told.best.evidence, abs=SURE)
@@ -188,7 +189,7 @@ def test_rivals_stay_beside_what_they_stand_for() -> None:
     twin = Candidate("twin", ThresholdPressure(pressure=30e3))
     _, told = _told(found, _with_rival(found, best, twin))
     assert told.best.names == ("threshold_pressure", "force_sensor_drift")
-    (rival,) = told.rivals[0]
+    (rival,) = told.places[0].rivals
     assert rival.names == ("twin", "force_sensor_drift")
 
 
@@ -198,7 +199,7 @@ def test_no_rival_is_what_is_told_beside_it() -> None:
     lenient = replace(found, threshold=-100.0)
     _, told = _told(lenient, _with_rival(found, best, LATE[0], "force_sensor_bias"))
     assert told.best.names == ("force_sensor_bias", "threshold_pressure", "creep")
-    assert told.rivals[0] == ()
+    assert told.places[0].rivals == ()
 
 
 def test_a_drift_is_told_if_it_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:

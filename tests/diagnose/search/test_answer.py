@@ -16,7 +16,7 @@ from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.answer import answering
 from gripperd.diagnose.search.dwell import misfit
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import Contest, contest
+from gripperd.diagnose.search.rivalry import Contest, Place, contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.channel_delay import ChannelDelay
@@ -128,7 +128,7 @@ def _beside(channel: Signal) -> tuple[Found, Contest]:
     late = Candidate("channel_delay", ChannelDelay(delay=0.01, channel=channel))
     point = added(best.best.fit.point, late)
     here = Rival((*best.best.candidates, late), polished(found.problem, point))
-    return found, Contest(here, (*best.without, best.best), (*best.rivals, ()))
+    return found, Contest(here, (*best.places, Place(best.best)))
 
 
 def test_beside_one_cause_no_other_is_told() -> None:

@@ -7,7 +7,7 @@ import pytest
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
@@ -54,8 +54,8 @@ def train() -> Problem:
 
 def _won(problem: Problem, *candidates: Candidate) -> Contest:
     """A contest that ended with these, and without any rival."""
-    best, nobody = fitted(problem, *candidates), ((),) * len(candidates)
-    return Contest(best, (fitted(problem),) * len(candidates), nobody)
+    bare = Place(fitted(problem))
+    return Contest(fitted(problem, *candidates), (bare,) * len(candidates))
 
 
 def _opened(problem: Problem, *best: Candidate) -> Contest:
@@ -71,19 +71,19 @@ def test_who_leads_with_the_zero_open_could_stand_for_what_was_named(
     (others,) = opened.equivalents
     # Friction explains far less, so it is no rival with any zero.
     assert set(others) == {"threshold_pressure", "twin"}
-    for rival in opened.rivals[0]:
+    for rival in opened.places[0].rivals:
         length = TOLD + TOLERANCES["muscle.rest_length"] * rival.fit.point.shifts[0]
         assert length == pytest.approx(BUILT, abs=3e-4)
 
 
 def test_it_stands_for_the_first_effect_alone(train: Problem) -> None:
     opened = _opened(train, BIAS, RUB)
-    first, second = opened.rivals
-    assert {one.names for one in first} == {
+    first, second = opened.places
+    assert {one.names for one in first.rivals} == {
         ("threshold_pressure", "coulomb_friction"),
         ("twin", "coulomb_friction"),
     }
-    assert second == ()
+    assert second.rivals == ()
 
 
 def test_what_is_named_already_is_no_rival_of_itself(train: Problem) -> None:

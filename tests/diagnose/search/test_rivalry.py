@@ -111,24 +111,24 @@ def test_what_the_rest_has_made_idle_is_dropped(problem: Problem) -> None:
 def test_the_best_without_an_effect_is_the_best_of_the_rest(problem: Problem) -> None:
     found = _found(problem, RUB)
     decided = contest(found, (RUB,))
-    (without,) = decided.without
-    assert without.names == ()
-    assert without.evidence == pytest.approx(found.null.evidence, abs=0.5)
-    assert decided.best.evidence - without.evidence > found.threshold
+    (place,) = decided.places
+    assert place.without.names == ()
+    assert place.without.evidence == pytest.approx(found.null.evidence, abs=0.5)
+    assert decided.best.evidence - place.without.evidence > found.threshold
 
 
 def test_nothing_found_has_no_rivals(blank: Problem) -> None:
     listed = (RUB, BIAS)
     decided = contest(_found(pinned(blank, "zero.force"), *listed), listed)
-    assert (decided.best.names, decided.rivals, decided.without) == ((), (), ())
+    assert (decided.best.names, decided.places) == ((), ())
 
 
 def test_rivals_come_best_first_and_none_beats_the_best(problem: Problem) -> None:
     third = Candidate("third", Third(magnitude=20.0))
     listed = (RUB, TWIN, third)
     decided = contest(_found(problem, *listed), listed)
-    (rivals,) = decided.rivals
-    evidence = [one.evidence for one in rivals]
+    (place,) = decided.places
+    evidence = [one.evidence for one in place.rivals]
     assert len(evidence) == 2
     assert evidence == sorted(evidence, reverse=True)
     assert max(evidence) <= decided.best.evidence + 1e-6

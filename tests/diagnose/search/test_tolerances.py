@@ -7,7 +7,7 @@ import pytest
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.rival import Rival
-from gripperd.diagnose.search.rivalry import SURE, Contest
+from gripperd.diagnose.search.rivalry import SURE, Contest, Place
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
 from gripperd.diagnose.statement import statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
@@ -99,7 +99,7 @@ def _behind(both: Diagnosis, lead: float) -> Contest:
     fit = both.contest.best.fit
     gain = Candidate("valve_gain", ValveGain())
     rival = Rival((gain,), replace(fit, cost=fit.cost + 2 * lead))
-    return Contest(rival, (both.found.null,), ((),))
+    return Contest(rival, (Place(both.found.null),))
 
 
 def test_an_effect_that_explains_as_much_stays_a_rival(both: Diagnosis) -> None:

@@ -3,7 +3,8 @@ from dataclasses import replace
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.verdict.conclude import (
     Conclusion,
     Verdict,
@@ -19,20 +20,24 @@ def _judged(told: Diagnosis, contest: Contest) -> Conclusion:
     return conclude(told.split.train, told.found, contest)
 
 
+def _won(told: Diagnosis, best: Rival, *rivals: Rival) -> Contest:
+    return Contest(best, (Place(told.found.null, rivals),))
+
+
 def test_what_explains_all_and_has_no_rival_is_named(told: Diagnosis) -> None:
-    concluded = _judged(told, replace(told.contest, rivals=((),)))
+    concluded = _judged(told, _won(told, told.contest.best))
     assert concluded.verdict is Verdict.NAMED
     assert concluded.share > 0.9
 
 
 def test_with_an_equal_rival_it_is_ambiguous(told: Diagnosis) -> None:
     twin = told.contest.best
-    concluded = _judged(told, replace(told.contest, rivals=((twin,),)))
+    concluded = _judged(told, _won(told, twin, twin))
     assert concluded.verdict is Verdict.AMBIGUOUS
 
 
 def test_structure_that_nothing_explains_is_unexplained(told: Diagnosis) -> None:
-    concluded = _judged(told, Contest(told.found.null, (), ()))
+    concluded = _judged(told, Contest(told.found.null))
     assert concluded.verdict is Verdict.UNEXPLAINED
     assert concluded.share == pytest.approx(0.0, abs=0.05)
 
@@ -54,7 +59,7 @@ def test_a_name_is_kept_from_most_of_the_structure(
     best = told.contest.best
     point = best.fit.point.with_effect(weak)
     poor = replace(best, fit=replace(best.fit, point=point))
-    concluded = _judged(told, replace(told.contest, best=poor, rivals=((),)))
+    concluded = _judged(told, _won(told, poor))
     assert concluded.verdict is verdict
     assert concluded.signals == (Signal.FORCE,)
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
+from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.model.effect import Signal
 from tests.diagnose.small import MODEL, recording
@@ -66,7 +67,7 @@ def test_such_a_gain_on_noise_alone_is_beyond_chance(threshold: Named) -> None:
 
 def _chance(told: Diagnosis, least: float, most: float) -> float:
     """Chance when noise gains from least to most above what was gained. [nat]"""
-    gain = told.contest.best.evidence - told.contest.without[0].evidence
+    gain = told.contest.best.evidence - told.contest.places[0].without.evidence
     nulls = np.linspace(gain + least, gain + most, 400)
     (entry,) = named(replace(told.found, nulls=nulls), told.contest, told.gaps)
     return entry.p_value
@@ -82,7 +83,7 @@ def test_beyond_what_was_drawn_it_falls_with_the_odds(told: Diagnosis) -> None:
 
 
 def test_it_is_worth_its_numbers_by_bic(told: Diagnosis, threshold: Named) -> None:
-    without = told.contest.without[0].fit
+    without = told.contest.places[0].without.fit
     fall = without.cost - told.contest.best.fit.cost
     assert threshold.delta_bic < -50.0
     # Two numbers, each at the logarithm of the effective samples: 5 to 8.
@@ -118,5 +119,4 @@ def test_a_number_knows_beyond_what_nothing_was_sought(
 
 
 def test_nothing_found_is_nothing_named(told: Diagnosis) -> None:
-    nothing = replace(told.contest, best=told.found.null, without=(), rivals=())
-    assert named(told.found, nothing, told.gaps) == ()
+    assert named(told.found, Contest(told.found.null), told.gaps) == ()

@@ -5,7 +5,7 @@ import pytest
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.verdict.conclude import Conclusion, Verdict
 from gripperd.diagnose.verdict.jump import Jump
 from gripperd.diagnose.verdict.signature import signature
@@ -21,7 +21,7 @@ def _view(
 
 @pytest.fixture(scope="module")
 def unnamed(told: Diagnosis) -> Contest:
-    return Contest(told.found.null, (), ())
+    return Contest(told.found.null)
 
 
 def _words(problem: Problem, best: Contest, *left: Structure) -> tuple[str, ...]:
@@ -79,7 +79,7 @@ def test_the_share_that_is_explained_comes_first(
 
 
 def test_the_nearest_known_effects_are_named(told: Diagnosis, blank: Problem) -> None:
-    best = replace(told.contest, rivals=((),))
+    best = replace(told.contest, places=(Place(told.found.null),))
     words = _words(blank, best, _view("time", 1e-30))
     assert "nearest known effects: threshold pressure" in words
 
@@ -90,7 +90,7 @@ def test_a_wrong_constant_comes_without_its_path(
     wrong = replace(
         told.contest.best, candidates=(Candidate("parameter:muscle.diameter", None, 0),)
     )
-    words = _words(blank, Contest(wrong, (), ()), _view("time", 1e-30))
+    words = _words(blank, Contest(wrong), _view("time", 1e-30))
     assert "nearest known effects: a wrong diameter" in words
 
 
