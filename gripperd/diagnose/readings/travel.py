@@ -1,6 +1,7 @@
 """Direction of travel: along a measured way, or of what sticks under a load."""
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.model.compiled import compiled
@@ -19,6 +20,8 @@ CLEAR = 1.5
 """The same in sigma of the noise that was taken off. [-]"""
 STILL = 2.7
 """A sweep within a range of so many times that has no travel. [-]"""
+BRIEF = 5
+"""Samples of which a trend may miss the less beside a corner. [-]"""
 STUCK = 0.06
 """Half the way back, as a share of the range of the load, in which joints stick. [-]"""
 STEADY = 0.01
@@ -58,6 +61,8 @@ def contracting(known: Smooth) -> Array:
 def travel(way: Array, least: float, begun: float = 0.0) -> Array:
     """Sign of travel along a way, turning where it turned; 0 before the first.
 
+    A trend goes too far where jaws meet an object; the way that lasts is not that.
+
     Parameters
     ----------
     way
@@ -67,12 +72,16 @@ def travel(way: Array, least: float, begun: float = 0.0) -> Array:
     begun
         How much is undone when the way back is seen to have begun. [of the way]
     """
-    return compiled(_travel)(way, least, begun)
+    lasting = median_filter(way, BRIEF, mode="nearest")
+    return compiled(_travel)(way, lasting, least, begun, BRIEF)
 
 
-def _travel(way: Array, least: float, begun: float) -> Array:
+def _travel(
+    way: Array, lasting: Array, least: float, begun: float, brief: int
+) -> Array:
     out = np.zeros_like(way)
     sign = 0.0
+    leg = 0
     extreme, top = way[0], 0
     for i in range(way.size):
         gone = (way[i] - extreme) * (sign if sign != 0.0 else 1.0)
@@ -82,6 +91,13 @@ def _travel(way: Array, least: float, begun: float) -> Array:
             plateau = i - 1
             while abs(way[plateau] - extreme) > begun:
                 plateau -= 1
+            furthest = sign * np.max(sign * lasting[leg:i])
+            last = i - 1
+            while last > plateau and abs(way[last] - furthest) > begun:
+                last -= 1
+            if sign != 0.0 and last > plateau + brief:
+                extreme, top, plateau = furthest, last - brief, last
+            leg = plateau
             # A round turn leaves with the square of the time, and as it came; the first
             # leg came from nowhere, it begins with its plateau.
             root = np.sqrt(begun / least)

@@ -1,6 +1,8 @@
 import numpy as np
+import pytest
 
-from gripperd.diagnose.readings.travel import leaning, travel
+from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.travel import contracting, leaning, travel
 
 
 def test_travel_turns_where_it_turned_once_it_has_gone_far_enough() -> None:
@@ -44,6 +46,16 @@ def test_the_way_back_from_a_hold_begins_at_its_end_whatever_its_noise() -> None
     signs = travel(np.concatenate([there, hold, there[::-1]]), 1.5e-3, 6e-4)
     (turned,) = np.flatnonzero(np.diff(signs) == -2)
     assert abs(turned - 600) <= 5
+
+
+@pytest.mark.parametrize("brief", [1, 2])
+def test_a_trend_that_goes_too_far_at_an_object_does_not_turn_there(brief: int) -> None:
+    there, held = np.linspace(0.0, 0.06, 60), np.full(200, 0.06)
+    held[:brief] += 8e-4
+    known = Smooth(np.concatenate([there, held, there[::-1]]), np.zeros(320))
+    signs = contracting(known)
+    (turned,) = np.flatnonzero(np.diff(signs) == -2)
+    assert abs(turned - 260) <= 2
 
 
 def test_what_creeps_back_after_a_step_has_not_turned_before_it_is_seen() -> None:
