@@ -31,6 +31,10 @@ FEW_JAWS = 3
 """With fewer sweeps of the jaws none of them can be spared."""
 MARGIN = 0.02
 """Share of a range by which a sweep may go further than all others. [-]"""
+FASTER = 1.5
+"""Times the speed of all others from which a sweep alone shows what speed does. [-]"""
+QUICKLY = 0.9
+"""Quantile that stands for the speed of a sweep: at a corner any may leap. [-]"""
 
 
 @dataclass(frozen=True)
@@ -70,7 +74,7 @@ def _spared(problem: Problem) -> set[int]:
     """Sweeps whose inputs lie inside the range of the rest, spread over the order.
 
     The first of a recording stays: only it can show a first inflation. So does the last
-    that shows a signal.
+    that shows a signal, and the only fast one: what speed does shows in it alone.
     """
     courses, shown = problem.courses, _shown(problem)
     wanted = max(1, round(SHARE * len(shown)))
@@ -96,6 +100,7 @@ def _spared(problem: Problem) -> set[int]:
     jaws = [index for index in shown if _opens(courses[index])]
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
         spared.add(jaws[-1])
+    spared = spared - _fastest(courses) or spared
     for index in sorted(spared, reverse=True):
         left = [shown[place] for place in shown.keys() - spared]
         if not shown[index] <= set[Signal]().union(*left):
@@ -160,6 +165,20 @@ def within(courses: Sequence[Course]) -> list[int]:
         margin = MARGIN * (most - least)
         covered[known] &= (low >= least - margin) & (high <= most + margin)
     return np.flatnonzero(covered).tolist()
+
+
+def _fastest(courses: Sequence[Course]) -> set[int]:
+    """Give the sweep that travels faster than all others by far, if one does."""
+    pace = np.array([_pace(course) for course in courses])
+    alone = pace > FASTER * np.maximum(_others_most(pace), 0.0)
+    return set(np.flatnonzero(alone).tolist())
+
+
+def _pace(course: Course) -> float:
+    """How fast a sweep travels where it travels fast; 0 if it does not. [1/s]."""
+    if not _travelled(course):
+        return 0.0
+    return float(np.nanquantile(np.abs(course.rate("contraction")), QUICKLY))
 
 
 def _others_most(values: Array) -> Array:

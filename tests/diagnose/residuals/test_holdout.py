@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.problem import Problem
 
@@ -90,6 +91,33 @@ def test_a_sweep_that_goes_further_than_all_others_stays(blank: Problem) -> None
     )
     courses = (*blank.courses[:index], wide, *blank.courses[index + 1 :])
     assert far.run not in split(replace(blank, courses=courses)).runs
+
+
+def _faster(problem: Problem, names: set[str], times: float) -> Problem:
+    """The same, had some sweeps travelled so many times as fast."""
+
+    def hurried(course: Course) -> Course:
+        known = course.smooth["contraction"]
+        quick = known._replace(rate=times * known.rate)
+        return replace(course, smooth={**course.smooth, "contraction": quick})
+
+    return replace(
+        problem,
+        courses=tuple(
+            hurried(one) if one.run in names else one for one in problem.courses
+        ),
+    )
+
+
+@pytest.mark.parametrize(
+    ("fast", "times", "is_spared"),
+    [({"e"}, 3.0, False), ({"e"}, 1.3, True), ({"d", "e"}, 3.0, True)],
+)
+def test_the_only_fast_sweep_stays(
+    blank: Problem, fast: set[str], times: float, *, is_spared: bool
+) -> None:
+    assert "e" in split(blank).runs
+    assert ("e" in split(_faster(blank, fast, times)).runs) is is_spared
 
 
 def test_of_few_sweeps_the_end_of_each_is_left_out(blank: Problem) -> None:
