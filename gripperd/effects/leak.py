@@ -28,8 +28,8 @@ class Leak(InValve):
 
     with l what a shut valve has lost, ``dl/dt = k (p_0 - l)`` while the command stands
     still and ``dl/dt = -l / r`` while it moves, and t the time since it last moved:
-    told to move, the regulator fills up. The last term is a regulator that feeds the
-    leak and droops.
+    told to move, the regulator fills up. So does one that is known to keep the pressure
+    while others lose it. The last term is a regulator that feeds the leak and droops.
     """
 
     name: ClassVar[str] = "leak"
@@ -55,6 +55,6 @@ class Leak(InValve):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pressure that is left. [Pa]."""
-        still = track.still
-        lost = leaked(value, track.step, still, (self.rate, self.refill), memory)
-        return value - lost + value * self.early * np.expm1(-still / SOON)
+        law = (self.rate, self.refill)
+        lost = leaked(value, track.step, track.waiting, law, memory)
+        return value - lost + value * self.early * np.expm1(-track.still / SOON)

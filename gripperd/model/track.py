@@ -28,6 +28,8 @@ class Track:
     """Gauge pressures at both ends of the regulator's line. [Pa]"""
     still: Array
     """Time since the command last moved. [s]"""
+    waiting: Array
+    """The same, 0 where a regulator is known to keep the pressure. [s]"""
     pressure: Array
     """Gauge pressure in the muscle. [Pa]"""
     contraction: Array

@@ -27,6 +27,7 @@ def course(muscle: Muscle) -> Track:
         track,
         command=200e3 * (1 - np.cos(0.8 * time)),
         still=time % 5.0,
+        waiting=time % 5.0,
         force=300.0 + 200.0 * np.sin(time),
         grip=30.0 + 20.0 * np.sin(time),
         supply=600e3 - 40e3 * np.sin(0.3 * time),

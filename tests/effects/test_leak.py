@@ -12,7 +12,7 @@ from tests.effects.tracks import track_of
 
 
 def _left(effect: Leak, muscle: Muscle, pressure: list[float], **moved: Array) -> Array:
-    track = track_of(muscle, **moved)
+    track = track_of(muscle, **({"waiting": moved["still"]} | moved))
     return effect.along(np.array(pressure), track, effect.rest())
 
 
@@ -38,6 +38,15 @@ def test_what_was_lost_is_filled_up_as_fast_as_the_regulator_fills(
     assert found[2] == pytest.approx(200e3 - kept * lost, abs=100.0)
 
 
+def test_what_a_regulator_keeps_is_not_lost(muscle: Muscle) -> None:
+    still, waiting = np.array([0.0, 30.0, 60.0]), np.array([0.0, 30.0, 0.0])
+    step = np.array([0.0, 30.0, 30.0])
+    effect = Leak(rate=1e-3)
+    moved = {"still": still, "waiting": waiting, "step": step}
+    found = _left(effect, muscle, 3 * [400e3], **moved)
+    assert found == pytest.approx([400e3, 400e3 * exp(-0.03), 400e3], abs=1.0)
+
+
 def test_no_more_is_lost_than_there_is(muscle: Muscle) -> None:
     still, step = np.array([0.0, 100.0, 0.0]), np.array([0.0, 100.0, 0.1])
     effect = Leak(rate=0.1, refill=30.0)
@@ -56,7 +65,8 @@ def test_a_regulator_that_feeds_the_leak_droops_by_the_share(muscle: Muscle) -> 
 
 def test_a_vented_line_has_nothing_to_lose(muscle: Muscle) -> None:
     effect = Leak(rate=0.01, early=0.1)
-    track = track_of(muscle, still=np.array([0.0, 100.0]))
+    still = np.array([0.0, 100.0])
+    track = track_of(muscle, still=still, waiting=still)
     assert effect.along(np.zeros(2), track, effect.rest()).tolist() == [0.0, 0.0]
 
 

@@ -12,6 +12,7 @@ STILL = {
     "step": 0.1,
     "command": 0.0,
     "still": 0.0,
+    "waiting": 0.0,
     "pressure": 0.0,
     "contraction": 0.0,
     "rate": 0.0,

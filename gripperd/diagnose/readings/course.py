@@ -35,6 +35,8 @@ class Course:
     """Direction of travel, 0 before there was any. [-]"""
     still: Array
     """Time since the command last moved. [s]"""
+    waiting: Array
+    """The same, 0 where a regulator is known to keep the pressure. [s]"""
     slices: tuple[slice, ...] = (slice(None),)
     """Samples of each sweep."""
     start: float = 0.0
@@ -98,6 +100,7 @@ def joined(courses: Sequence[Course]) -> Course:
         repeat=np.concatenate([course.repeat for course in courses]),
         direction=np.concatenate([course.direction for course in courses]),
         still=np.concatenate([course.still for course in courses]),
+        waiting=np.concatenate([course.waiting for course in courses]),
         slices=tuple(
             slice(end - len(course), end)
             for course, end in zip(courses, ends, strict=True)

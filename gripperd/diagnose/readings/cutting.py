@@ -1,6 +1,7 @@
 """A recording cut into sweeps, each with all that is known of its course."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,6 +12,7 @@ from gripperd.diagnose.readings.cycle import cycles
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
+from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.errors import InputError
 from gripperd.model.compiled import compiled
@@ -71,11 +73,15 @@ def courses(
         if name in noises and std > noises[name].std:
             noises[name] = Noise(std, noises[name].correlation)
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
-    return tuple(
+    found = [
         _course(sweep, noises, cycle, repeat, start)
         for sweep, cycle, repeat in zip(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
+    ]
+    waits = waiting(found)
+    return tuple(
+        replace(course, waiting=wait) for course, wait in zip(found, waits, strict=True)
     ), noises
 
 
@@ -84,12 +90,12 @@ def _course(
 ) -> Course:
     time = sweep.columns["time"]
     smoothed = levels(sweep, noises)
-    known = smoothed.get("contraction")
+    known, still = smoothed.get("contraction"), _stillness(sweep)
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat),
         np.zeros_like(time) if known is None else contracting(known),
-        _stillness(sweep), start=start,
+        still, still, start=start,
     )  # fmt: skip
 
 

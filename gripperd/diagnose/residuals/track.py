@@ -44,6 +44,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         command=command,
         span=span,
         still=course.still,
+        waiting=course.waiting,
         pressure=_pressure_at(explanation, course),
         contraction=_contraction(explanation, course),
         rate=course.rate("contraction"),
