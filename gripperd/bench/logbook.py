@@ -67,6 +67,7 @@ class Logbook:
             muscle=self._chain.muscle,
             span=(regulator.pressure_low, regulator.pressure_high),
             still=np.array([moment.time - self._moved]),
+            came=np.array([nan]),
             waiting=np.array([moment.time - self._moved]),
             cycle=np.array([self._cycle]),
             **samples,

@@ -42,11 +42,12 @@ from gripperd.diagnose.verdict.extrapolation import (
     extrapolation,
     swept,
 )
-from gripperd.diagnose.verdict.gap import Gap, gaps, with_usual_sign
+from gripperd.diagnose.verdict.gap import Gap, gaps
 from gripperd.diagnose.verdict.judged import bearing_signal, main_signal
 from gripperd.diagnose.verdict.jump import jump
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
+from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.diagnose.verdict.signature import signature
 from gripperd.diagnose.verdict.where import Finding, findings
 from gripperd.model.effect import Effect, Signal
@@ -186,7 +187,7 @@ def _told(
     conclusion = conclude(judge, found, best)
     slip = jump(found, best)
     start, base, nearest = (
-        with_usual_sign(train, point)
+        with_own_sign(parts, point)
         for point in (
             Point(np.zeros(len(train.constants))),
             found.null.fit.point,

@@ -10,6 +10,8 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
@@ -71,6 +73,8 @@ class PreslidingHysteresis(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
-        begin_at(track.contraction, self.contraction, self.begun, memory)
+        came = float(track.came[0]) if track.came.size else np.nan
+        load = self.begun if np.isnan(came) else came
+        begin_at(track.contraction, self.contraction, load, memory)
         forces = (self.near, self.middle, self.far)
         return value - carried(track.contraction, self.contraction, forces, memory)

@@ -38,6 +38,8 @@ class Track:
     """Of contraction. [1/s]"""
     direction: Array
     """+1 contracting, -1 extending, kept at rest. [-]"""
+    came: Array
+    """The same of the travel before a run that has none; else not known. [-]"""
     force: Array
     """Pull of the muscle. [N]"""
     grip: Array

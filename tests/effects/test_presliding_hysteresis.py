@@ -46,6 +46,17 @@ def test_a_record_may_begin_as_the_way_there_left_it(muscle: Muscle) -> None:
     assert stretched == pytest.approx([ALL, ALL])
 
 
+@pytest.mark.parametrize("came", [-1.0, 0.3, 1.0])
+def test_a_run_without_travel_begins_as_the_rig_came_to_rest(
+    muscle: Muscle, came: float
+) -> None:
+    resting = np.full(4, 0.1)
+    track = track_of(muscle, contraction=resting, came=came)
+    begun = replace(HYSTERESIS, begun=-0.5)
+    held = begun.along(np.zeros(4), track, begun.rest())
+    assert held == pytest.approx([-came * ALL] * 4)
+
+
 def test_a_first_loading_bends_at_a_third_one_and_three_radii(muscle: Muscle) -> None:
     reached = force(muscle, np.array([0.0, 0.01 / 3, 0.01, 0.03, 0.1]))
     # Of the springs' 4, 8 and 6 N, the share of its way that each has gone.

@@ -17,6 +17,7 @@ STILL = {
     "contraction": 0.0,
     "rate": 0.0,
     "direction": 1.0,
+    "came": np.nan,
     "force": 0.0,
     "grip": np.nan,
     "temperature": np.nan,

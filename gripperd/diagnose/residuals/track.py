@@ -49,6 +49,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         contraction=_contraction(explanation, course),
         rate=course.rate("contraction"),
         direction=directions(explanation, course, *places),
+        came=_came(explanation, course, *places),
         force=course.level("force") - zeros.get(Signal.FORCE, 0.0),
         grip=course.level("grip"),
         temperature=course.level("temperature"),
@@ -114,6 +115,15 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
             found[piece] = _inflating(pressure, sign)
         else:
             known[known == 0] = sign
+    return found
+
+
+def _came(explanation: Explanation, course: Course, *places: int) -> Array:
+    """Sign with which sweeps rest that have no travel; not known of the others."""
+    found = np.full_like(course.time, np.nan)
+    for piece, place in zip(course.slices, places, strict=True):
+        if not course.direction[piece].any():
+            found[piece] = explanation.rests.get(place, np.nan)
     return found
 
 

@@ -7,12 +7,11 @@ References
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.residuals.constants import together
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
@@ -110,29 +109,6 @@ def gaps(
         )
         for signal in after
     }
-
-
-def with_usual_sign(train: Problem, point: Point) -> Point:
-    """Give sweeps that were left out the usual sign of friction of those that were not.
-
-    How the rig came to rest in them is as unknown as in the others, and not fitted.
-    Those that never move are set up alike, and so are those that move off from rest;
-    few that came the other way change nothing (median).
-    """
-    fitted = {block.course for block in train.blocks}
-    signs = train.explanation(point).rests
-    known = {course: sign for course, sign in signs.items() if course in fitted}
-    moves = [bool(course.direction.any()) for course in train.courses]
-    shifts = point.shifts.copy()
-    for index, constant in enumerate(train.constants):
-        own = constant.course
-        if own is None or own in fitted:
-            continue
-        alike = [sign for course, sign in known.items() if moves[course] == moves[own]]
-        usual = float(np.median(alike or [*known.values()] or [0.0]))
-        # Of its own nothing was fitted: what it has is what all share.
-        shifts[index] = together(usual, -signs[own]) / constant.sigma
-    return replace(point, shifts=shifts)
 
 
 def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:

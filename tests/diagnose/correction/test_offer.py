@@ -11,7 +11,7 @@ from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.gap import with_usual_sign
+from gripperd.diagnose.verdict.rested import with_usual_sign
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array

@@ -12,7 +12,6 @@ from gripperd.diagnose.verdict.gap import (
     _interval,
     by_signal,
     gaps,
-    with_usual_sign,
 )
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
@@ -169,31 +168,6 @@ def test_a_crowd_of_effects_must_close_a_gap_closely(
     assert gap.confirms(2)
 
 
-@pytest.mark.parametrize("shared", [-2.0, 0.0, 2.5])
-def test_sweeps_left_out_rest_as_most_of_the_others(
-    blank: Problem, shared: float
-) -> None:
-    out = {index for index, one in enumerate(blank.courses) if one.run == "b2"}
-    kept = tuple(
-        np.full(len(one), index not in out) for index, one in enumerate(blank.courses)
-    )
-    train = replace(blank, kept=kept)
-    paths = [one.path for one in train.constants]
-    shifts = np.zeros(len(paths))
-    shifts[paths.index("rest.all")] = shared
-    shifts[paths.index("rest.1")] = 1.5
-    shifts[paths.index("rest.2")] = -1.0
-    before, after = (
-        train.explanation(point).rests
-        for point in (Point(shifts), with_usual_sign(train, Point(shifts)))
-    )
-    others = [sign for index, sign in before.items() if index not in out]
-    assert len(out & before.keys()) == 1
-    for index, sign in after.items():
-        expected = np.median(others) if index in out else before[index]
-        assert sign == pytest.approx(expected)
-
-
 def test_few_samples_have_an_interval_as_well() -> None:
     residual = np.random.default_rng(0).normal(0.0, 3.0, 30)
     low, high = _interval(residual, np.random.default_rng(1))
@@ -201,29 +175,3 @@ def test_few_samples_have_an_interval_as_well() -> None:
     # 95 % of the root mean square of 30 normal numbers, by chi squared: 26 % each way.
     assert 0.6 * rms < low < 0.9 * rms
     assert 1.1 * rms < high < 1.4 * rms
-
-
-def test_sweeps_that_never_move_come_to_rest_like_those_that_do_not_either(
-    blank: Problem,
-) -> None:
-    resting = {"b": 0.9, "c": 0.9, "vented": 0.9, "a": 0.9}
-    place = {one.path: i for i, one in enumerate(blank.constants)}
-    courses = {course.run: i for i, course in enumerate(blank.courses)}
-    shifts = np.zeros(len(blank.constants))
-    for run, sign in resting.items():
-        index = place[f"rest.{courses[run]}"]
-        shifts[index] = sign / blank.constants[index].sigma
-    # As if one that rests were the first of a ride.
-    ridden = tuple(
-        replace(one, direction=np.where(one.time > one.time[5], 1.0, 0.0))
-        if one.run == "a"
-        else one
-        for one in blank.courses
-    )
-    index = place[f"rest.{courses['a']}"]
-    shifts[index] = -0.9 / blank.constants[index].sigma
-    kept = tuple(np.full(len(course), course.run != "b2") for course in ridden)
-    train = replace(blank, courses=ridden, kept=kept)
-    point = with_usual_sign(train, Point(shifts))
-    sign = train.explanation(point).rests[courses["b2"]]
-    assert sign == pytest.approx(0.9, abs=1e-6)
