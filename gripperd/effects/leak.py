@@ -28,8 +28,9 @@ class Leak(InValve):
 
     with l what a shut valve has lost, ``dl/dt = k (p_0 - l)`` while the command stands
     still and ``dl/dt = -l / r`` while it moves, and t the time since it last moved:
-    told to move, the regulator fills up. So does one that is known to keep the pressure
-    while others lose it. The last term is a regulator that feeds the leak and droops.
+    told to move, the regulator fills up. So does one that is taken to keep the pressure
+    while it is lost elsewhere. The last term is a regulator that feeds the leak and
+    droops.
     """
 
     name: ClassVar[str] = "leak"

@@ -16,7 +16,7 @@ from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
-from gripperd.model.prandtl import at_rest, begin_at, carried
+from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -73,8 +73,9 @@ class PreslidingHysteresis(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
-        came = float(track.came[0]) if track.came.size else np.nan
-        load = self.begun if np.isnan(came) else came
-        begin_at(track.contraction, self.contraction, load, memory)
+        if np.isnan(track.came[:1]).all():
+            begin_at(track.contraction, self.contraction, self.begun, memory)
+        else:
+            begin_after(track.contraction, self.contraction, track.came[0], memory)
         forces = (self.near, self.middle, self.far)
         return value - carried(track.contraction, self.contraction, forces, memory)

@@ -47,6 +47,24 @@ def begin_at(signal: Array, radius: float, load: float, memory: Array) -> None:
         memory[:] = signal[0] - load * np.clip(signal[0], -reaches, reaches)
 
 
+def begin_after(signal: Array, radius: float, came: float, memory: Array) -> None:
+    """Load springs, if they have no past, as a long way there does.
+
+    Parameters
+    ----------
+    signal
+        The path, shape ``(n,)``.
+    radius
+        As :func:`carried` has it.
+    came
+        Which way it was, 1 or -1; a share of that between. [-1..1]
+    memory
+        As :func:`at_rest` gave it, and it is set; or as a call before left it.
+    """
+    if signal.size and np.isnan(memory).all():
+        memory[:] = signal[0] - came * radius * SPREAD ** np.arange(-1.0, 2.0)
+
+
 def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Array:
     r"""Force that the springs carry along a path, however fast it is run.
 

@@ -29,7 +29,7 @@ class Track:
     still: Array
     """Time since the command last moved. [s]"""
     waiting: Array
-    """The same, 0 where a regulator is known to keep the pressure. [s]"""
+    """The same, 0 where a regulator is taken to keep the pressure. [s]"""
     pressure: Array
     """Gauge pressure in the muscle. [Pa]"""
     contraction: Array

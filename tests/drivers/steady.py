@@ -32,8 +32,9 @@ class Clock:
         self._loop = asyncio.get_running_loop()
         self._time = self._real = time.monotonic()
         self._near, self._far = os.openpty()
-        for end in (self._near, self._far):
-            weakref.finalize(self, os.close, end)
+        self._closing = [
+            weakref.finalize(self, os.close, end) for end in (self._near, self._far)
+        ]
         tty.setraw(self._far)
         self._loop.add_reader(self._far, self._tick)
         self._send()
@@ -47,6 +48,8 @@ class Clock:
         self._time, self._real = self.now(), time.monotonic()
         if self._line.closed.is_set():
             self._loop.remove_reader(self._far)
+            for close in self._closing:
+                close()
         else:
             self._loop.call_later(MOST / 2, self._send)
 

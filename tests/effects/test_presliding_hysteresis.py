@@ -50,11 +50,21 @@ def test_a_record_may_begin_as_the_way_there_left_it(muscle: Muscle) -> None:
 def test_a_run_without_travel_begins_as_the_rig_came_to_rest(
     muscle: Muscle, came: float
 ) -> None:
-    resting = np.full(4, 0.1)
-    track = track_of(muscle, contraction=resting, came=came)
     begun = replace(HYSTERESIS, begun=-0.5)
-    held = begun.along(np.zeros(4), track, begun.rest())
-    assert held == pytest.approx([-came * ALL] * 4)
+    for length in (0.0, 0.005, 0.1):
+        resting = np.full(4, length)
+        track = track_of(muscle, contraction=resting, came=came)
+        held = begun.along(np.zeros(4), track, begun.rest())
+        assert held == pytest.approx([-came * ALL] * 4)
+
+
+def test_after_its_first_sample_it_is_the_path_that_counts(muscle: Muscle) -> None:
+    memory = HYSTERESIS.rest()
+    first, later = (
+        HYSTERESIS.along(np.zeros(1), track_of(muscle, contraction=h, came=c), memory)
+        for h, c in ((0.1, 1.0), (0.1 - 0.06, -0.3))
+    )
+    assert (first[0], later[0]) == pytest.approx((-ALL, ALL))
 
 
 def test_a_first_loading_bends_at_a_third_one_and_three_radii(muscle: Muscle) -> None:

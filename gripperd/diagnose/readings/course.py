@@ -36,7 +36,7 @@ class Course:
     still: Array
     """Time since the command last moved. [s]"""
     waiting: Array
-    """The same, 0 where a regulator is known to keep the pressure. [s]"""
+    """The same, 0 where a regulator is taken to keep the pressure. [s]"""
     slices: tuple[slice, ...] = (slice(None),)
     """Samples of each sweep."""
     start: float = 0.0

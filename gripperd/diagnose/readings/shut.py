@@ -1,7 +1,7 @@
-"""Whether the valve is shut while the command stands still: the pressure tells.
+"""Whether a regulator keeps the pressure while the command rests, or the valve is shut.
 
-No column says so. But where it sinks in one hold and stays in another, as high and as
-long, a regulator keeps it in the other.
+No column says so. But where the pressure sinks in one hold and stays in another, as
+high and as long, a regulator keeps it in the other.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,6 +17,8 @@ SETTLED = 1.0
 """Time after which a regulator has followed a command. [s]"""
 LONG = 5.0
 """Time from which a hold shows whether it sinks. [s]"""
+FEW = 10
+"""Samples from which it does: a tenth of them is one. [-]"""
 SINKS = 0.015
 """Share of the highest pressure from which it is no drift of a sensor: two standard
 deviations of what sound ones drift. [-]"""
@@ -29,7 +31,6 @@ KEPT = 1 / 3
 class Hold(NamedTuple):
     """What a pressure does while the command stands still."""
 
-    sweep: int
     rows: Mask
     level: float
     """Where it begins. [Pa]"""
@@ -49,45 +50,46 @@ class Hold(NamedTuple):
 def waiting(courses: Sequence[Course]) -> list[Array]:
     """Time for which the valve may have been shut, in every sweep. [s].
 
-    That is the time since the command last moved; 0 where a regulator keeps the
-    pressure, which only a recording tells in which others sink.
+    That is the time since the command last moved, in all holds. But if a regulator is
+    known to keep one, for the slowest leak would drain it by far more than it loses, it
+    is taken to keep all that do not sink: there the time is 0.
     """
-    waits = [course.still for course in courses]
-    holds = [hold for place in range(len(courses)) for hold in _holds(courses, place)]
+    held = [list(_holds(course)) for course in courses]
+    holds = [hold for own in held for hold in own]
     top = max((hold.level for hold in holds), default=0.0)
-    sinking = [hold for hold in holds if _sinks(hold, SINKS * top)]
-    slowest = min((hold.pace for hold in sinking), default=0.0)
-    least = SINKS * top / KEPT
-    foreseen = [slowest * hold.level * hold.lasts for hold in holds]
+    least = SINKS * top
+    slowest = min((hold.pace for hold in holds if _sinks(hold, least)), default=0.0)
     if not any(
-        one > max(least, hold.lost / KEPT)
-        for one, hold in zip(foreseen, holds, strict=True)
+        KEPT * slowest * hold.level * hold.lasts > max(least, hold.lost)
+        for hold in holds
     ):
-        return waits
-    shut = [np.zeros(len(course), dtype=bool) for course in courses]
-    for hold in sinking:
-        shut[hold.sweep] |= hold.rows
-    return [np.where(rows, wait, 0.0) for rows, wait in zip(shut, waits, strict=True)]
+        return [course.still for course in courses]
+    found = []
+    for course, own in zip(courses, held, strict=True):
+        shut = np.zeros(len(course), dtype=bool)
+        for hold in own:
+            if _sinks(hold, least):
+                shut |= hold.rows
+        found.append(np.where(shut, course.still, 0.0))
+    return found
 
 
 def _sinks(hold: Hold, least: float) -> bool:
     return hold.lost > least and hold.later > STEADY * hold.lost
 
 
-def _holds(courses: Sequence[Course], place: int) -> Iterator[Hold]:
+def _holds(course: Course) -> Iterator[Hold]:
     """From each command to the next, if it rests for long."""
-    course = courses[place]
     pressure, still = course.level("pressure"), course.still
     moved = np.cumsum(np.diff(still, prepend=0.0) < 0)
     for number in range(int(moved[-1]) + 1):
         rows = moved == number
         good = rows & (still > SETTLED) & np.isfinite(pressure)
         time, level = course.time[good], pressure[good]
-        if good.sum() < 10 or time[-1] - time[0] < LONG:
+        if time.size < FEW or np.ptp(time) < LONG:
             continue
-        tenth = max(good.sum() // 10, 1)
-        first, last = level[:tenth].mean(), level[-tenth:].mean()
+        tenth = time.size // FEW
+        first, last = (float(part.mean()) for part in (level[:tenth], level[-tenth:]))
         middle = float(np.interp(0.5 * (time[0] + time[-1]), time, level))
-        lasts = float(time[-1] - time[0])
         if first > 0:
-            yield Hold(place, rows, first, first - last, middle - last, lasts)
+            yield Hold(rows, first, first - last, middle - last, float(np.ptp(time)))

@@ -3,11 +3,15 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
+from typing import TypeVar
 
 import numpy as np
 
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+
+Sign = TypeVar("Sign", float, Array)
 
 PLAIN = 0.0115
 """Tolerance of a constant without a stated one, relative, one sigma: parts are made to
@@ -204,7 +208,7 @@ def _signs(values: Mapping[str, float]) -> dict[int, float]:
     return {int(name): together(sign, shared) for name, sign in own.items()}
 
 
-def together(one: float, other: float) -> float:
+def together(one: Sign, other: float) -> Sign:
     """Add two signs of friction as velocities add up: both are felt from -1 to 1."""
     return (one + other) / (1 + one * other)
 

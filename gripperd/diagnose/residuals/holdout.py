@@ -97,10 +97,14 @@ def _spared(problem: Problem) -> set[int]:
     wanted = max(1, wanted - len(spared))
     of_moving = round(wanted * len(moving) / max(len(rest), 1))
     spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
+    # No other takes its place: what is next to it in kind would go with it.
+    fastest = _fastest(courses)
+    spared -= fastest
+    if not spared:
+        spared.update(_spread([index for index in inner if index not in fastest], 1))
     jaws = [index for index in shown if _opens(courses[index])]
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
-        spared.add(jaws[-1])
-    spared = spared - _fastest(courses) or spared
+        spared.add([index for index in jaws if index not in fastest][-1])
     for index in sorted(spared, reverse=True):
         left = [shown[place] for place in shown.keys() - spared]
         if not shown[index] <= set[Signal]().union(*left):
@@ -170,7 +174,8 @@ def within(courses: Sequence[Course]) -> list[int]:
 def _fastest(courses: Sequence[Course]) -> set[int]:
     """Give the sweep that travels faster than all others by far, if one does."""
     pace = np.array([_pace(course) for course in courses])
-    alone = pace > FASTER * np.maximum(_others_most(pace), 0.0)
+    others = _others_most(pace)
+    alone = (pace > FASTER * others) & (others > 0)
     return set(np.flatnonzero(alone).tolist())
 
 

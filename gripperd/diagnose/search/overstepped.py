@@ -54,7 +54,8 @@ def with_overstepped(
     told = next((one for one in kin if BORE in one.names), kin[0])
     others = tuple(rival for rival in kin if rival is not told)
     alike = (*(place.rivals for place in best.places), others)
-    return Contest(told, tuple(map(Place, without_each(problem, told), alike)))
+    pairs = zip(without_each(problem, told), alike, strict=True)
+    return Contest(told, tuple(Place(*pair) for pair in pairs))
 
 
 def _is_far_off(problem: Problem, freed: Rival) -> bool:

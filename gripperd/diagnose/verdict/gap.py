@@ -84,7 +84,7 @@ def gaps(
     noises: Mapping[Signal, Noise],
     rng: np.random.Generator,
 ) -> dict[Signal, Gap]:
-    """Judge three points by what none of them was fitted to.
+    """Judge three points by sweeps that were left out.
 
     Parameters
     ----------

@@ -12,65 +12,69 @@ from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.residuals.constants import together
+from gripperd.diagnose.residuals.constants import SHARED, together
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.model.track import Array
 
-STEP = 0.25
-"""Change of a sign by which its effect is told, in its prior sigma."""
-ROUNDS = 2
-"""Signs add up like velocities: nearly straight."""
+TRIED = np.linspace(-1.0, 1.0, 401)
+"""Signs among which the likeliest is taken. [-]"""
 
 
 def with_own_sign(parts: Split, point: Point) -> Point:
     """Give each sweep that was left out the sign of friction that it rests with.
 
     One number for each, and the only one that is fitted to them: about the usual sign
-    of those that were not left out, and with the prior that they had.
+    of those that were not left out, and with the prior that they had. Friction is
+    proportional to it, so that the misfit is a parabola.
     """
     test, own = parts.test, _own(parts)
     point = with_usual_sign(parts.train, point)
+    if not own:
+        return point
     usual = point.shifts
-    for _ in range(ROUNDS if own else 0):
-        shifts, step = point.shifts.copy(), np.zeros_like(usual)
-        for index in own:
-            # Inwards: beyond a full sign nothing changes.
-            step[index] = -STEP if shifts[index] > 0 else STEP
-        there = _white(test, replace(point, shifts=shifts + step))
-        here = _white(test, point)
-        for index, blocks in own.items():
-            left = np.concatenate([here[i] for i in blocks])
-            slope = (np.concatenate([there[i] for i in blocks]) - left) / step[index]
-            pull = shifts[index] - usual[index] + slope @ left
-            full = 1 / test.constants[index].sigma
-            found = shifts[index] - pull / (1 + slope @ slope)
-            shifts[index] = np.clip(found, -full, full)
-        point = replace(point, shifts=shifts)
-    return point
+    (shared,) = (
+        float(shift) * constant.sigma
+        for shift, constant in zip(usual, test.constants, strict=True)
+        if constant.path == SHARED
+    )
+
+    def with_all(sign: float) -> Point:
+        shifts = usual.copy()
+        for place in own.values():
+            shifts[place] = together(sign, -shared) / test.constants[place].sigma
+        return replace(point, shifts=shifts)
+
+    back, none, there = (_misfits(test, with_all(sign)) for sign in (-1.0, 0.0, 1.0))
+    shifts = usual.copy()
+    for course, place in own.items():
+        slope = 0.5 * (there[course] - back[course])
+        bend = 0.5 * (there[course] + back[course]) - none[course]
+        alone = together(TRIED, -shared) / test.constants[place].sigma
+        price = slope * TRIED + bend * TRIED**2 + (alone - usual[place]) ** 2
+        shifts[place] = alone[np.argmin(price)]
+    return replace(point, shifts=shifts)
 
 
-def _own(parts: Split) -> dict[int, list[int]]:
-    """Place of each sign that only sweeps left out can tell, and their blocks."""
-    fitted = {block.course for block in parts.train.blocks}
-    found: dict[int, list[int]] = {}
-    for index, constant in enumerate(parts.test.constants):
-        if constant.course is not None and constant.course not in fitted:
-            found[index] = [
-                i
-                for i, block in enumerate(parts.test.blocks)
-                if block.course == constant.course
-            ]
-    return {index: blocks for index, blocks in found.items() if blocks}
+def _own(parts: Split) -> dict[int, int]:
+    """Places of the signs that only sweeps left out can tell, by sweep."""
+    judged = {block.course for block in parts.test.blocks}
+    judged -= {block.course for block in parts.train.blocks}
+    return {
+        constant.course: place
+        for place, constant in enumerate(parts.test.constants)
+        if constant.course in judged and constant.course is not None
+    }
 
 
-def _white(problem: Problem, point: Point) -> list[Array]:
-    residuals = problem.residuals(point)
-    return [
-        problem.white([residual], index)[:, 0]
-        for index, residual in enumerate(residuals)
-    ]
+def _misfits(problem: Problem, point: Point) -> dict[int, float]:
+    """Chi² of each sweep. [-]."""
+    found: dict[int, float] = {}
+    for index, residual in enumerate(problem.residuals(point)):
+        course = problem.blocks[index].course
+        white = problem.white([residual], index)
+        found[course] = found.get(course, 0.0) + float(np.sum(white**2))
+    return found
 
 
 def with_usual_sign(train: Problem, point: Point) -> Point:

@@ -1,6 +1,7 @@
 """Which holds a shut valve leaves alone, and which a regulator keeps."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -12,16 +13,22 @@ from gripperd.model.track import Array
 TOP, STEP = 400e3, 0.1
 
 
-def _recorded(holds: Mapping[str, Array]) -> dict[str, Array]:
+def _recorded(
+    holds: Mapping[str, Array],
+    commands: Mapping[str, Sequence[tuple[int, float]]] = MappingProxyType({}),
+) -> dict[str, Array]:
     """Time for which the valve may have been shut in each run. [s]"""
     runs: list[Run] = []
     start = 0.0
     for name, pressure in holds.items():
         time = start + STEP * np.arange(pressure.size)
         rng = np.random.default_rng(len(runs))
+        told = pressure[0] + 0.0 * time
+        for row, command in commands.get(name, ()):
+            told[row:] = command
         columns = {
             "time": time,
-            "current": np.full_like(time, 0.004 + 0.016 * pressure[0] / TOP),
+            "current": 0.004 + 0.016 * told / TOP,
             "pressure": pressure + rng.normal(0.0, 1e3, time.size),
         }
         runs.append(Run(name, columns))
@@ -79,6 +86,31 @@ def test_a_regulator_that_is_late_after_a_step_down_is_not_shut() -> None:
     assert waits["hold"].any()
 
 
-def test_a_low_hold_beside_others_is_not_known_to_leak() -> None:
-    holds = {"hold": _kept(60.0), "shut": _leaking(30.0), "low": _kept(30.0, 8e3)}
-    assert not _recorded(holds)["low"].any()
+@pytest.mark.parametrize(
+    "other",
+    [
+        pytest.param(_kept(30.0, 8e3), id="too low"),
+        pytest.param(_kept(4.0), id="too short"),
+        pytest.param(_leaking(7.0, 4e-3, 0.5 * TOP), id="too little to lose"),
+    ],
+)
+def test_a_hold_that_shows_nothing_is_taken_for_kept_where_one_is(
+    other: Array,
+) -> None:
+    waits = _recorded({"hold": _kept(60.0), "shut": _leaking(30.0), "other": other})
+    assert not waits["hold"].any()
+    assert not waits["other"].any()
+
+
+def test_the_slowest_leak_is_what_a_hold_is_held_against() -> None:
+    # It lost a twentieth of its pressure, the other a half: at that pace a third more.
+    slow, quick = _leaking(60.0, 1e-3), _leaking(60.0, 1.2e-2)
+    waits = _recorded({"slow": slow, "quick": quick})
+    assert waits["slow"][-1] == pytest.approx(STEP * (slow.size - 1))
+
+
+def test_each_hold_of_a_sweep_is_one_of_its_own() -> None:
+    both = np.concatenate([_leaking(30.0), _kept(60.0, 0.8 * TOP)])
+    waits = _recorded({"both": both}, commands={"both": [(0, TOP), (300, 0.8 * TOP)]})
+    np.testing.assert_allclose(waits["both"][:300], _lasting(30.0))
+    assert not waits["both"][300:].any()

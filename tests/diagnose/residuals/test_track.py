@@ -117,3 +117,19 @@ def test_the_clock_of_what_happened_begins_with_the_recording() -> None:
         told, known = (track_of(MODEL, course, 0).time for course in (one, other))
         np.testing.assert_allclose(told, known, atol=1e-5)
     assert track_of(MODEL, one, 0).time[0] > 0.0
+
+
+def test_a_leak_is_told_where_the_valve_may_be_shut(silent: dict[str, Course]) -> None:
+    waits = np.linspace(0.0, 5.0, len(silent["b"]))
+    told = track_of(MODEL, replace(silent["b"], waiting=waits), 0)
+    np.testing.assert_array_equal(told.waiting, waits)
+
+
+def test_how_it_came_to_rest_is_told_of_sweeps_without_travel_alone(
+    silent: dict[str, Course],
+) -> None:
+    model = replace(MODEL, rests={0: 0.3, 1: -0.7})
+    came = {run: track_of(model, silent[run], 1).came for run in ("b", "d")}
+    np.testing.assert_array_equal(came["b"], -0.7)
+    assert np.isnan(came["d"]).all()
+    assert np.isnan(track_of(model, silent["b"], 2).came).all()

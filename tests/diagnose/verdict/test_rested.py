@@ -12,7 +12,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.rested import with_own_sign, with_usual_sign
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.rubber_elasticity import RubberElasticity
-from tests.diagnose.small import MODEL, recording, rubbing
+from tests.diagnose.small import MODEL, altered, recording
 
 
 @pytest.mark.parametrize("shared", [-2.0, 0.0, 2.5])
@@ -86,16 +86,24 @@ def _resting(problem: Problem, sign: float, left_out: int) -> Point:
     return Point(shifts)
 
 
+@pytest.mark.parametrize("shared", [0.0, 0.8, 0.95])
 @pytest.mark.parametrize("others", [-0.9, 0.0, 0.9])
-def test_a_sweep_left_out_has_the_sign_that_its_samples_tell(others: float) -> None:
-    # Dry friction of 20 N, and all of the rig came to rest while it contracted.
-    problem = problem_of(recording(rubbing(20.0)), MODEL, {})
+@pytest.mark.parametrize("sign", [-1.0, -0.5, 0.0, 1.0])
+def test_a_sweep_left_out_has_the_sign_that_its_samples_tell(
+    sign: float, others: float, shared: float
+) -> None:
+    # Dry friction of 400 N, and the rig came to rest with a part of it in that sweep.
+    told = altered(recording(), ("b2",), "force", lambda force: force - 400.0 * sign)
+    problem = problem_of(told, MODEL, {})
     parts, place = _left_out(problem, "b2")
-    friction = CoulombFriction(magnitude=20.0)
+    friction = CoulombFriction(magnitude=400.0)
     point = _resting(problem, others, place).with_effect(friction)
+    index = [one.path for one in problem.constants].index("rest.all")
+    point.shifts[index] = shared / problem.constants[index].sigma
     before = problem.explanation(point).rests
     after = problem.explanation(with_own_sign(parts, point)).rests
-    assert after[place] > 0.9
+    # Beside it the friction of the textbook, 16 N at most, has the sign 1.
+    assert after[place] == pytest.approx(sign, abs=0.08)
     assert after == pytest.approx({**before, place: after[place]})
 
 
