@@ -4,8 +4,8 @@ It is as unknown as in the others, and nothing but their own samples can tell it
 
 References
 ----------
-.. [1] L. Ljung, "System Identification: Theory for the User", 2nd ed., Prentice Hall,
-       1999, section 16.4: the initial state of validation data is estimated from them.
+.. [1] MathWorks, "System Identification Toolbox", ``compare`` and ``findstates``: so is
+       the initial state of the data that a model is compared with.
 """
 
 from dataclasses import replace
