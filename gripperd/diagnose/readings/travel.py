@@ -61,7 +61,8 @@ def contracting(known: Smooth) -> Array:
 def travel(way: Array, least: float, begun: float = 0.0) -> Array:
     """Sign of travel along a way, turning where it turned; 0 before the first.
 
-    A trend goes too far where jaws meet an object; the way that lasts is not that.
+    A trend goes too far where jaws meet an object; the way that lasts is not that. What
+    has no noise to begin with (begun 0) goes no further than it went.
 
     Parameters
     ----------
@@ -72,7 +73,7 @@ def travel(way: Array, least: float, begun: float = 0.0) -> Array:
     begun
         How much is undone when the way back is seen to have begun. [of the way]
     """
-    lasting = median_filter(way, BRIEF, mode="nearest")
+    lasting = median_filter(way, BRIEF, mode="nearest") if begun > 0 else way
     return compiled(_travel)(way, lasting, least, begun, BRIEF)
 
 
@@ -95,7 +96,8 @@ def _travel(
             last = i - 1
             while last > plateau and abs(way[last] - furthest) > begun:
                 last -= 1
-            if sign != 0.0 and last > plateau + brief:
+            too_far = sign != 0.0 and abs(extreme - furthest) > begun
+            if too_far and last > plateau + brief:
                 extreme, top, plateau = furthest, last - brief, last
             leg = plateau
             # A round turn leaves with the square of the time, and as it came; the first

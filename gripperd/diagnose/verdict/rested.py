@@ -68,12 +68,12 @@ def _own(parts: Split) -> dict[int, int]:
 
 
 def _misfits(problem: Problem, point: Point) -> dict[int, float]:
-    """Chi² of each sweep. [-]."""
+    """Squares of what is left of each sweep, of its noise: as a gap has it. [-]."""
     found: dict[int, float] = {}
-    for index, residual in enumerate(problem.residuals(point)):
-        course = problem.blocks[index].course
-        white = problem.white([residual], index)
-        found[course] = found.get(course, 0.0) + float(np.sum(white**2))
+    residuals = problem.residuals(point)
+    for block, residual in zip(problem.blocks, residuals, strict=True):
+        squares = np.sum((residual / problem.noises[block.signal].floor) ** 2)
+        found[block.course] = found.get(block.course, 0.0) + float(squares)
     return found
 
 
