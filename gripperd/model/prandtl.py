@@ -48,18 +48,9 @@ def begin_at(signal: Array, radius: float, load: float, memory: Array) -> None:
 
 
 def begin_after(signal: Array, radius: float, came: float, memory: Array) -> None:
-    """Load springs, if they have no past, as a long way there does.
+    """Load springs as :func:`begin_at`, but as a long way from anywhere does.
 
-    Parameters
-    ----------
-    signal
-        The path, shape ``(n,)``.
-    radius
-        As :func:`carried` has it.
-    came
-        Which way it was, 1 or -1; a share of that between. [-1..1]
-    memory
-        As :func:`at_rest` gave it, and it is set; or as a call before left it.
+    ``came`` says which way that was, 1 or -1, or a share of it. [-1..1]
     """
     if signal.size and np.isnan(memory).all():
         memory[:] = signal[0] - came * radius * SPREAD ** np.arange(-1.0, 2.0)
