@@ -135,9 +135,7 @@ def test_a_free_muscle_that_leaps_does_not_come_back() -> None:
             )
         )
         assert (course.direction[60:] == 1.0).all()
-        off = np.abs(course.level("contraction") - true)
-        # Beside the step it may be off: nothing is weighed there. 0.15 % is a travel.
-        assert np.concatenate([off[:55], off[66:]]).max() < 1e-3
+        assert np.abs(course.level("contraction") - true).max() < 4e-4
 
 
 def test_a_load_that_swings_after_a_step_does_not_leap() -> None:
