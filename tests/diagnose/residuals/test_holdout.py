@@ -120,6 +120,21 @@ def test_the_only_fast_sweep_stays(
     assert ("e" in split(_faster(blank, fast, times)).runs) is is_spared
 
 
+@pytest.mark.parametrize("left_away", ["b", "c", "b2"])
+@pytest.mark.parametrize("fast", ["d", "e", "f"])
+def test_without_the_only_fast_sweep_another_is_spared(
+    blank: Problem, fast: str, left_away: str
+) -> None:
+    kept = tuple(
+        one
+        for one in _faster(blank, {fast}, 3.0).courses
+        if one.run not in ("vented", "a", left_away)
+    )
+    runs = split(replace(blank, courses=kept)).runs
+    assert runs
+    assert fast not in runs
+
+
 def test_of_few_sweeps_the_end_of_each_is_left_out(blank: Problem) -> None:
     found = _few(blank, 3)
     for mask, course in zip(found.test.kept, found.test.courses, strict=True):
