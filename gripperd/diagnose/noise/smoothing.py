@@ -6,6 +6,7 @@ References
        ed., Oxford, 2012, section 3.2.1 (local linear trend) and 4.4 (smoother).
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -73,14 +74,27 @@ def smooth(
     best = STIFFNESSES[int(np.argmax(likelihoods))] * supple
     _, states, spreads, leaps = compiled(_filter)(scaled, step, best, leap)
     level, slope = compiled(_smoother)(states, spreads, step, best, leaps)
+    rows = _rows(leaps > 0)
     return Smooth(
         level * scale + np.nanmean(column),
-        slope * scale,
+        _with_travel(slope, level, time, rows) * scale,
         max(likelihoods) if np.mean(leaps > 0) < SELDOM else -np.inf,
         variance,
         float(np.sqrt(np.median(spreads[:, 0]))) * float(scale),
-        _rows(leaps > 0),
+        rows,
     )
+
+
+def _with_travel(
+    slope: Array, level: Array, time: Array, leapt: Sequence[slice]
+) -> Array:
+    """Slope that knows of leaps in a row: together they are a way, at a rate."""
+    found = slope.copy()
+    for row in leapt:
+        if row.stop - row.start > 1:
+            way = slice(row.start - 1, row.stop)
+            found[row] = np.gradient(level[way], time[way])[1:]
+    return found
 
 
 def _rows(found: NDArray[np.bool_]) -> tuple[slice, ...]:

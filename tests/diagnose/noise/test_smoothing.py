@@ -101,3 +101,14 @@ def test_it_tells_which_samples_in_a_row_leapt() -> None:
     assert smooth(time, noise, 1.0, leap=5.0).leapt == ()
     assert smooth(time, step + noise, 1.0, leap=5.0).leapt == (slice(50, 51),)
     assert smooth(time, stairs + noise, 1.0, leap=5.0).leapt == (slice(50, 53),)
+
+
+def test_leaps_in_a_row_are_a_way_at_a_rate() -> None:
+    time = np.arange(0.0, 40.0, 0.1)
+    way = 300.0 * np.clip(time - 20.0, 0.0, 1.0)
+    noise = np.random.default_rng(4).normal(0.0, 1.0, time.size)
+    leaping = smooth(time, way + noise, 1.0, leap=5.0)
+    (row,) = leaping.leapt
+    assert row.stop - row.start > 5
+    assert leaping.rate[row] == pytest.approx(300.0, rel=0.1)
+    assert np.abs(np.delete(leaping.rate, np.r_[row])).max() < 30.0
