@@ -5,9 +5,6 @@ References
 .. [1] B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, "A survey of models,
        analysis tools and compensation methods for the control of machines with
        friction", Automatica 30(7), 1083-1138, 1994.
-.. [2] S. Andersson, A. Söderberg, S. Björklund, "Friction models for sliding dry,
-       boundary and mixed lubricated contacts", Tribology International 40(4), 580-587,
-       2007.
 """
 
 from dataclasses import dataclass
@@ -21,6 +18,7 @@ from gripperd.model.memory import begin, dahl
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real
+from gripperd.model.slip import called_up
 from gripperd.model.track import Array, Track
 
 
@@ -29,8 +27,8 @@ class CoulombFriction(InMuscle):
     """A constant force against the direction of travel.
 
     After a reversal it turns round over a distance too short to be called hysteresis
-    (Dahl's model with exponent 1). What creeps rubs less: the force grows as the
-    hyperbolic tangent of a slow rate [2]_.
+    (Dahl's model with exponent 1), and at rest it stays. What creeps rubs less, by
+    :func:`gripperd.model.slip.called_up`; without a distance nothing is felt at rest.
     """
 
     name: ClassVar[str] = "coulomb_friction"
@@ -51,14 +49,22 @@ class CoulombFriction(InMuscle):
 
     magnitude: float = amplitude(unit="N", scale=20.0, low=0.0, high=300.0)
     """Of the force. [N]"""
-    distance: float = shape(unit=None, starts=(0.0, 1e-3), low=0.0, high=2e-3)
-    """Contraction over which it turns round. [-]"""
-    slip: float = shape(unit="per_s", starts=(0.0, 3e-3), low=0.0, high=1e-2)
-    """Rate of contraction at which three quarters of it are there. [1/s]"""
+    distance: float = shape(
+        unit=None, starts=(0.0, 1e-3), low=0.0, high=2e-3, switches=True
+    )
+    """Contraction over which it turns round; 0 for at once. [-]"""
+    slip: float = shape(
+        unit="per_s", starts=(0.0, 3e-3), low=0.0, high=1e-2, switches=True
+    )
+    """Rate of contraction at which three quarters of it are there; 0 for any. [1/s]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """Against contraction while contracting, with it while extending. [N]."""
-        return -at.direction * self.magnitude * self._share(at.rate)
+        """Against contraction while contracting, with it while extending. [N].
+
+        With a distance, at rest, all that the travel before left.
+        """
+        share = 1.0 if self.distance > 0 else called_up(at.rate, self.slip)
+        return -at.direction * self.magnitude * share
 
     def rest(self) -> Array:
         """A sign that begins with the first travel."""
@@ -66,13 +72,7 @@ class CoulombFriction(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take off the friction of each moment. [N]."""
-        share = np.broadcast_to(self._share(track.rate), value.shape)
+        share = np.broadcast_to(called_up(track.rate, self.slip), value.shape)
         way, direction = track.contraction, track.direction
         sign = dahl(way, direction, np.asarray(share), self.distance, memory)
         return value - self.magnitude * sign
-
-    def _share(self, rate: Real) -> Real:
-        """Part that a rate calls up: all of a friction that jumps as travel turns."""
-        if self.slip > 0 and self.distance > 0:
-            return np.tanh(np.abs(rate) / self.slip)
-        return 1.0

@@ -15,6 +15,7 @@ from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real, positive_part
+from gripperd.model.slip import called_up
 
 WORKING_PRESSURE = 300e3
 """Gauge pressure at which the friction has its amplitude. [Pa]"""
@@ -25,6 +26,8 @@ class PressureFriction(InMuscle):
     r"""A force against the direction of travel, with strands that press harder.
 
     .. math:: F = \mp a \left(\frac{p}{300 kPa}\right)^b, \quad p \ge 0
+
+    times :func:`gripperd.model.slip.called_up`, where what creeps rubs less.
     """
 
     name: ClassVar[str] = "pressure_friction"
@@ -44,6 +47,10 @@ class PressureFriction(InMuscle):
     """Friction at 300 kPa, a. [N]"""
     exponent: float = shape(unit=None, starts=(1.0, 0.5, 0.75, 1.5), low=0.3, high=2.0)
     """Power of pressure, b. [-]"""
+    slip: float = shape(
+        unit="per_s", starts=(0.0, 3e-3), low=0.0, high=1e-2, switches=True
+    )
+    """Rate of contraction at which three quarters of it are there; 0 for any. [1/s]"""
 
     @property
     def affine(self) -> bool:
@@ -53,7 +60,8 @@ class PressureFriction(InMuscle):
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Against contraction while contracting, with it while extending. [N]."""
         load = positive_part(at.pressure) / WORKING_PRESSURE
-        return -at.direction * self.magnitude * load**self.exponent
+        size = self.magnitude * load**self.exponent
+        return -at.direction * size * called_up(at.rate, self.slip)
 
     def kinks(
         self, contraction: Real, diameter_ratio: Real, muscle: Muscle

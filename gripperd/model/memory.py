@@ -104,7 +104,7 @@ def dahl(
 
     Dahl's model with exponent 1: the sign nears a share of the direction by ``1 - 1/e``
     in each distance gained in it [2]_. At rest it stays. The state, shape ``(2,)``,
-    holds how far the signal came and the sign, which begins at that share.
+    holds how far the signal came and the sign, which begins at the direction.
     """
     return compiled(_dahl)(signal, direction, share, distance, state)
 
@@ -187,7 +187,7 @@ def _dahl(
     for index in range(signal.size):
         toward, goal = direction[index], share[index] * direction[index]
         if np.isnan(last) or np.isnan(sign):
-            last, sign = signal[index], goal
+            last, sign = signal[index], toward
         # Noise goes to and fro: only what is gained counts.
         gained = (signal[index] - last) * toward
         if gained > 0:

@@ -26,11 +26,18 @@ class Parameter:
     """Values from which a shape is searched, none for an amplitude."""
     choices: tuple[StrEnum, ...] = ()
     """All values of a parameter that is a word, none for a number."""
+    switches: bool = False
+    """Whether 0 is a law of its own, to and from which no small step leads."""
 
     @property
     def is_amplitude(self) -> bool:
         """Whether the effect vanishes with it (together with its other amplitudes)."""
         return self.scale > 0
+
+    def bends_from(self, value: object) -> bool:
+        """Whether it is a shape, and a small step from a value bends the effect."""
+        bends = bool(self.starts) and self.high > self.low
+        return bends and not (self.switches and value == 0)
 
 
 def amplitude(
@@ -42,10 +49,15 @@ def amplitude(
 
 
 def shape(
-    *, unit: str | None, starts: tuple[float, ...], low: float, high: float
+    *,
+    unit: str | None,
+    starts: tuple[float, ...],
+    low: float,
+    high: float,
+    switches: bool = False,
 ) -> Any:  # noqa: ANN401  (as dataclasses.field)
     """Declare a parameter that bends the effect; the first start is its default."""
-    known = Parameter(unit, low, high, starts=starts)
+    known = Parameter(unit, low, high, starts=starts, switches=switches)
     return field(default=starts[0], metadata={_KEY: known})
 
 

@@ -1,7 +1,5 @@
 """Dry friction of constant size."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -62,22 +60,32 @@ def test_what_creeps_rubs_less(muscle: Muscle) -> None:
     back = track_of(muscle, contraction=-contraction, rate=-rate, direction=-1.0)
     opposite = friction.along(np.zeros(300), back, friction.rest())
     np.testing.assert_allclose(opposite, -force)
-    jumps = replace(friction, distance=0.0)
-    assert jumps.along(np.zeros(300), track, jumps.rest()) == pytest.approx(-15.0)
 
 
-def test_a_muscle_that_stands_still_does_not_creep(muscle: Muscle) -> None:
-    friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
-    static = StaticMuscle(muscle, (friction,))
+def test_without_a_distance_it_goes_by_the_rate_alone(muscle: Muscle) -> None:
+    friction = CoulombFriction(15.0, slip=3e-3)
+    rate = np.array([0.03, 3e-3, 0.0, -3e-3])
+    track = track_of(muscle, rate=rate, direction=np.array([1.0, 1.0, 1.0, -1.0]))
+    force = friction.along(np.zeros(4), track, friction.rest())
+    assert force == pytest.approx(-15.0 * np.tanh(rate / 3e-3))
+
+
+def test_a_muscle_that_stands_still_is_held_by_what_its_travel_left(
+    muscle: Muscle,
+) -> None:
     ideal = StaticMuscle(muscle).force(2e5, 0.1)
-    assert static.force(2e5, 0.1, Direction.CONTRACTING) == pytest.approx(ideal)
+    for distance, held in ((1e-3, 15.0), (0.0, 0.0)):
+        friction = CoulombFriction(15.0, distance=distance, slip=3e-3)
+        static = StaticMuscle(muscle, (friction,))
+        force = static.force(2e5, 0.1, Direction.CONTRACTING)
+        assert ideal - force == pytest.approx(held)
 
 
-def test_it_begins_at_the_share_of_its_rate(muscle: Muscle) -> None:
+def test_it_rests_as_it_came(muscle: Muscle) -> None:
     friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
-    track = track_of(muscle, contraction=np.array([0.1]), rate=np.array([3e-4]))
-    (force,) = friction.along(np.zeros(1), track, friction.rest())
-    assert force == pytest.approx(-15.0 * np.tanh(0.1))
+    resting = track_of(muscle, contraction=np.full(5, 0.1), rate=0.0, direction=-1.2)
+    force = friction.along(np.zeros(5), resting, friction.rest())
+    assert force == pytest.approx(1.2 * 15.0)
 
 
 @pytest.mark.parametrize("column", ["contraction", "rate", "direction"])

@@ -6,6 +6,7 @@ import pytest
 from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.model import Direction, Muscle, StaticMuscle
 from gripperd.model.real import Real
+from tests.effects.tracks import track_of
 
 
 def width(muscle: Muscle, effect: PressureFriction, pressure: Real) -> Real:
@@ -23,6 +24,16 @@ def test_the_loop_widens_with_a_power_of_pressure(
     assert width(muscle, friction, 300e3) == pytest.approx(40.0)
     wider = width(muscle, friction, 600e3) / width(muscle, friction, 150e3)
     assert wider == pytest.approx(4**exponent)
+
+
+def test_what_creeps_rubs_less_and_what_rests_not_at_all(muscle: Muscle) -> None:
+    friction = PressureFriction(20.0, exponent=1.0, slip=3e-3)
+    rate = np.array([0.03, 3e-3, 0.0, -3e-3])
+    track = track_of(
+        muscle, pressure=300e3, rate=rate, direction=np.array([1.0, 1.0, 1.0, -1.0])
+    )
+    force = friction.along(np.zeros(4), track, friction.rest())
+    assert force == pytest.approx(-20.0 * np.tanh(rate / 3e-3))
 
 
 @pytest.mark.parametrize("exponent", [0.5, 1.0])

@@ -29,6 +29,8 @@ RELATIVE = 2e-5
 """Fall of the cost, of itself, below which another round is not worth it. [-]"""
 CONVERGED = 0.3
 """Fall of the cost below which another round is not worth it."""
+LEAST_ON = 0.01
+"""Least of a shape whose 0 is another law, of its largest. [-]"""
 SHAPE_STEP = 0.04
 """Step of a difference quotient, of a shape or of its range. [-]"""
 
@@ -126,14 +128,15 @@ def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
     for effect in point.effects:
         answers = iter(responses(problem, point, effect, base))
         for name, known in parameters(effect).items():
+            low, high = limits(problem, effect, name)
             if known.is_amplitude:
                 prior = problem_prior(problem, effect, next(answers)) or 1.0
                 unit = prior * known.scale
-            elif known.starts and not known.choices and known.high > known.low:
+            elif known.bends_from(getattr(effect, name)):
                 unit = 0.5 * abs(getattr(effect, name)) or 0.1 * known.high
+                low = LEAST_ON * known.high if known.switches else low
             else:
                 continue
-            low, high = limits(problem, effect, name)
             found.append(
                 Coordinate(effect.name, name, unit, low, high, known.is_amplitude)
             )

@@ -167,6 +167,23 @@ def test_a_shape_stays_within_its_bounds() -> None:
     assert 0.0 <= effect.softness < 5e3
 
 
+@pytest.mark.parametrize(
+    ("distance", "slip", "free"),
+    [(0.0, 0.0, set()), (1e-3, 0.0, {"distance"}), (0.0, 3e-3, {"slip"})],
+)
+def test_no_step_leads_from_one_law_of_friction_to_another(
+    distance: float, slip: float, free: set[str]
+) -> None:
+    problem = problem_of(recording(rubbing(15.0)), MODEL, {})
+    start = CoulombFriction(magnitude=10.0, distance=distance, slip=slip)
+    found = polished(problem, _start(problem, start))
+    (effect,) = found.point.effects
+    assert isinstance(effect, CoulombFriction)
+    assert {one.parameter for one in found.coordinates} == {"magnitude"} | free
+    # Nothing turns slowly here: at once is best, but for good it is another law.
+    assert (effect.distance > 0, effect.slip > 0) == (distance > 0, slip > 0)
+
+
 def test_a_lag_is_found_in_time() -> None:
     problem = _problem()
     late = problem_of(_lagging(1.0), MODEL, {})
