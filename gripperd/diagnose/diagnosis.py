@@ -24,7 +24,7 @@ from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.search.resting import with_resting_sign
+from gripperd.diagnose.search.resting import with_resting_sign, with_stiction
 from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
@@ -158,7 +158,7 @@ def _diagnosed(
     listed, untested = candidates(library, parts.train, _columns(recording))
     progress("friction at rest", 0.2)
     train = with_resting_sign(parts.train, listed)
-    parts = replace(parts, train=train, test=replace(parts.test, model=train.model))
+    parts = parts.explained_by(train.model)
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
     progress("rivals", 0.7)
@@ -169,6 +169,8 @@ def _diagnosed(
     best = with_overstepped(found, best, listed)
     best = with_usual_tolerances(found, best)
     found, best = with_aftermath(found, best, listed, train.noises)
+    found, best = with_stiction(found, best)
+    parts = parts.explained_by(found.problem.model)
     progress("verdict", 0.9)
     return _told(recording, parts, found, best, untested, seed)
 

@@ -30,6 +30,8 @@ class Explanation:
     """Small zero errors of sensors, within what any sensor has. [SI]"""
     rests: Mapping[int, float] = field(default_factory=dict)
     """Sign of friction in sweeps without travel, by index of the course. [-1..1]"""
+    stiction: float = 0.0
+    """By how much better friction holds what rests than what slides. [-]"""
     skews: Mapping[Signal, float] = field(default_factory=dict)
     """How much earlier than the force a channel is sampled. [s]"""
     response: float = 0.0

@@ -105,7 +105,7 @@ def _contraction(explanation: Explanation, course: Course) -> Array:
 
 
 def directions(explanation: Explanation, course: Course, *places: int) -> Array:
-    """Direction of travel; before there was any, what is assumed of it. [-1..1]."""
+    """Direction of travel; before there was any, the sign of what it is held by."""
     found = course.direction.copy()
     for piece, place in zip(course.slices, places, strict=True):
         sign, known = explanation.rests.get(place, 1.0), found[piece]
@@ -114,7 +114,7 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
         if turns and np.isfinite(pressure).all():
             found[piece] = _inflating(pressure, sign)
         else:
-            known[known == 0] = sign
+            known[known == 0] = sign * (1 + explanation.stiction)
     return found
 
 
