@@ -1,7 +1,7 @@
 """From an explanation to a verdict."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
@@ -10,13 +10,16 @@ from gripperd.diagnose.fit.polish import Polished
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
-from gripperd.diagnose.verdict.structure import Structure, structures
+from gripperd.diagnose.verdict.structure import Structure, loudness, structures
 from gripperd.model.effect import Signal
 
 STRUCTURED = 1e-4
 """Chance below which what is left is no noise, over all ways of looking at it."""
 VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
+LOUD = 2.0
+"""Mean square of what is left, in whatever order, from which it is no noise: the noise
+of a sensor is known to a tenth. [-]"""
 EXPLAINED = 0.72
 """Share of the structure that a right explanation takes away. [-]"""
 
@@ -42,11 +45,14 @@ class Conclusion:
     """Share of the structure that the best explanation takes away. [-]"""
     before: tuple[Structure, ...] = ()
     """What is left with the best constants alone."""
+    louder: Mapping[Signal, float] = field(default_factory=dict)
+    """Times the noise that is left of a signal, if that is too much for noise. [-]"""
 
     @property
     def signals(self) -> tuple[Signal, ...]:
-        """Those in which structure is left."""
-        return tuple(dict.fromkeys(one.signal for one in _remaining(self.left)))
+        """Those in which more than noise is left."""
+        structured = (one.signal for one in _remaining(self.left))
+        return tuple(dict.fromkeys((*structured, *self.louder)))
 
 
 def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
@@ -64,15 +70,16 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     excess, left = _excess(before), _excess(after)
     share = 1 - left / excess if excess > 0 else 1.0
     remains = bool(_remaining(after))
+    louder = _louder(problem, contest.best.fit)
     if not contest.best.candidates:
-        verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
+        verdict = Verdict.UNEXPLAINED if remains or louder else Verdict.NONE
     elif remains and share < EXPLAINED:
         verdict = Verdict.UNEXPLAINED
     elif any(contest.equivalents):
         verdict = Verdict.AMBIGUOUS
     else:
         verdict = Verdict.NAMED
-    return Conclusion(verdict, after, share, before)
+    return Conclusion(verdict, after, share, before, louder)
 
 
 def unusable() -> Conclusion:
@@ -100,6 +107,11 @@ def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
 
 def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:
     return structures(problem, problem.residuals(fit.point))
+
+
+def _louder(problem: Problem, fit: Polished) -> dict[Signal, float]:
+    squares = loudness(problem, problem.residuals(fit.point))
+    return {one: square**0.5 for one, square in squares.items() if square > LOUD}
 
 
 def _excess(found: Sequence[Structure]) -> float:

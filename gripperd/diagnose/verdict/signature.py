@@ -29,6 +29,9 @@ def signature(
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)
+        if signal in conclusion.louder:
+            times = conclusion.louder[signal]
+            words.append(f"{signal.value}: {times:.1f} times as loud as its noise")
     return tuple(words)
 
 

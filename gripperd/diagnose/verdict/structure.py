@@ -59,6 +59,20 @@ def structures(problem: Problem, residuals: Sequence[Array]) -> tuple[Structure,
     return tuple(sorted(found, key=lambda one: one.p_value))
 
 
+def loudness(problem: Problem, residuals: Sequence[Array]) -> dict[Signal, float]:
+    """Give the mean square of what is left of each signal; 1 of its noise. [-]."""
+    found: dict[Signal, list[Array]] = {}
+    for index, (block, residual) in enumerate(
+        zip(problem.blocks, residuals, strict=True)
+    ):
+        white = problem.white([residual], index)[:, 0]
+        found.setdefault(block.signal, []).append(white**2)
+    return {
+        signal: float(np.mean(np.concatenate(squares)))
+        for signal, squares in found.items()
+    }
+
+
 def _structure(
     problem: Problem, signal: Signal, along: str, components: Array
 ) -> Structure:

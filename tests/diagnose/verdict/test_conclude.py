@@ -1,9 +1,11 @@
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.verdict.conclude import (
     Conclusion,
@@ -11,9 +13,20 @@ from gripperd.diagnose.verdict.conclude import (
     conclude,
     not_confirmed,
 )
+from gripperd.diagnose.verdict.signature import signature
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
-from tests.diagnose.small import MODEL, Hidden, nothing, recording, restless
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    FORCE_NOISE,
+    MODEL,
+    Hidden,
+    altered,
+    moments,
+    nothing,
+    recording,
+    restless,
+)
 
 
 def _judged(told: Diagnosis, contest: Contest) -> Conclusion:
@@ -45,6 +58,31 @@ def test_structure_that_nothing_explains_is_unexplained(told: Diagnosis) -> None
 def test_noise_alone_is_none() -> None:
     told = diagnose(recording(nothing), MODEL, {}, {})
     assert told.verdict is Verdict.NONE
+
+
+@pytest.mark.parametrize(
+    ("times", "verdict"), [(0.8, Verdict.NONE), (2.0, Verdict.UNEXPLAINED)]
+)
+def test_what_is_too_loud_for_noise_is_unexplained_whatever_it_looks_like(
+    times: float, verdict: Verdict
+) -> None:
+    def hurried(force: Array) -> Array:
+        """As much louder, but in nothing slow."""
+        white = np.random.default_rng(force.size).normal(0.0, 1.0, force.size + 1)
+        return force + times * FORCE_NOISE * np.diff(white) / 2**0.5
+
+    loud = altered(recording(), [*moments()], "force", hurried)
+    told = diagnose(loud, MODEL, {}, {})
+    noises = {**told.split.train.noises, Signal.FORCE: Noise(FORCE_NOISE, 0.0)}
+    problem = replace(told.split.train, noises=noises)
+    concluded = conclude(problem, told.found, Contest(told.found.null))
+    assert concluded.verdict is verdict
+    expected = (1 + times**2) ** 0.5
+    if verdict is Verdict.UNEXPLAINED:
+        assert concluded.louder[Signal.FORCE] == pytest.approx(expected, rel=0.05)
+        assert concluded.signals == (Signal.FORCE,)
+        told_of = signature(problem, Contest(told.found.null), concluded)
+        assert "force: 2.2 times as loud as its noise" in told_of
 
 
 @pytest.mark.parametrize(
