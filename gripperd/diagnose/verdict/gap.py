@@ -24,6 +24,9 @@ PIECES = 8
 DRAWS = 400
 WORSE = 1.01
 """Gap over that of better constants alone from which effects do harm. [-]"""
+OPEN = 1.1
+"""Gap that better constants leave, over the noise floor, from which there is something
+to close: floors are known to a tenth. [-]"""
 REACHED = 1.3
 """Gap over the noise floor up to which nothing more can be asked. [-]"""
 LEAST_CLOSED = 0.45
@@ -69,9 +72,12 @@ class Gap:
         """Whether what took no part bears so many effects out.
 
         A crowd of effects can imitate one that no library holds, but not closely. What
-        is worse by no more than chance, where little was left to close, says nothing.
+        is worse by no more than chance, where nothing was left to close, says nothing;
+        where something was, a name closes some of it.
         """
         if self.ci95_after[0] > WORSE * max(self.recalibrated, self.noise_floor):
+            return False
+        if self.left_open > OPEN and self.after >= self.recalibrated:
             return False
         crowd = effects > CROWD
         reached = self.after <= (CLOSELY if crowd else REACHED) * self.noise_floor

@@ -168,6 +168,18 @@ def test_a_crowd_of_effects_must_close_a_gap_closely(
     assert gap.confirms(2)
 
 
+@pytest.mark.parametrize(
+    ("recalibrated", "after", "confirms"),
+    [(3.2, 3.25, True), (3.6, 3.5, True), (3.6, 3.65, False)],
+)
+def test_a_name_closes_some_of_what_there_is_to_close(
+    recalibrated: float, after: float, *, confirms: bool
+) -> None:
+    # Of a noise of 3 N, known to a tenth, 3.2 N are nothing to close and 3.6 N are.
+    gap = replace(_gap(recalibrated, after), ci95_after=(3.0, 4.0))
+    assert gap.confirms(1) is confirms
+
+
 def test_few_samples_have_an_interval_as_well() -> None:
     residual = np.random.default_rng(0).normal(0.0, 3.0, 30)
     low, high = _interval(residual, np.random.default_rng(1))
