@@ -205,7 +205,8 @@ def _told(
     effects = 1 if nearest.looser else len(entries)
     bearing = bearing_signal(train, best, main, judged)
     gap = judged[bearing] if bearing else None
-    if slip or (gap and not gap.confirms(effects)):
+    spoilt = any(one.is_spoilt for one in judged.values())
+    if slip or spoilt or (gap and not gap.confirms(effects)):
         is_open = bool(slip) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):

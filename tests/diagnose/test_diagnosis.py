@@ -225,6 +225,18 @@ def test_what_an_effect_does_not_touch_speaks_neither_for_nor_against_it(
     assert found.verdict is Verdict.NAMED
 
 
+def test_a_name_that_spoils_another_signal_is_withdrawn(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    library = {"threshold_pressure": EFFECTS["threshold_pressure"]}
+    whole = recording(threshold(25.0))
+    assert diagnose(whole, MODEL, {}, library).verdict is Verdict.NAMED
+    monkeypatch.setattr(
+        Gap, "is_spoilt", property(lambda gap: gap.signal is Signal.PRESSURE)
+    )
+    assert diagnose(whole, MODEL, {}, library).verdict is Verdict.UNEXPLAINED
+
+
 def test_a_constant_of_the_jaws_is_borne_out_by_the_jaws(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

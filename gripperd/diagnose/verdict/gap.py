@@ -68,6 +68,12 @@ class Gap:
         """Whether better constants alone leave more than noise."""
         return self.left_open > REACHED
 
+    @property
+    def is_spoilt(self) -> bool:
+        """Whether effects take a signal that constants explain far from its noise."""
+        least = max(self.recalibrated, self.noise_floor)
+        return self.ci95_after[0] > REACHED * least
+
     def confirms(self, effects: int) -> bool:
         """Whether what took no part bears so many effects out.
 

@@ -180,6 +180,18 @@ def test_a_name_closes_some_of_what_there_is_to_close(
     assert gap.confirms(1) is confirms
 
 
+@pytest.mark.parametrize(
+    ("recalibrated", "low", "spoilt"),
+    [(2.5, 3.8, False), (2.5, 4.0, True), (9.0, 11.0, False), (9.0, 12.0, True)],
+)
+def test_a_signal_far_beyond_noise_and_constants_is_spoilt(
+    recalibrated: float, low: float, *, spoilt: bool
+) -> None:
+    # 1.3 times a noise of 3 N is 3.9 N, and of 9 N that were left before 11.7 N.
+    gap = replace(_gap(recalibrated, low + 1.0), ci95_after=(low, low + 2.0))
+    assert gap.is_spoilt is spoilt
+
+
 def test_few_samples_have_an_interval_as_well() -> None:
     residual = np.random.default_rng(0).normal(0.0, 3.0, 30)
     low, high = _interval(residual, np.random.default_rng(1))
