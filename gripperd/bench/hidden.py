@@ -103,10 +103,12 @@ class HiddenEffects:
             direction=np.array([float(Direction.EXTENDING)]),
             rate=np.minimum(now.rate, 0.0),
         )
-        return (
-            self._muscle.ahead(contracting, closing),
-            self._muscle.along(extending, opening),
-        )
+        # What is remembered is the way that was gone.
+        if np.all(now.rate > 0):
+            there = self._muscle.ahead(extending, opening)
+            return self._muscle.along(contracting, closing), there
+        here = self._muscle.ahead(contracting, closing)
+        return here, self._muscle.along(extending, opening)
 
     def lost(self, opening: float, now: Track) -> float:
         """Opening of the jaws beyond that of the linkage, by play. [m].

@@ -59,8 +59,12 @@ class CoulombFriction(InMuscle):
     """Rate of contraction at which three quarters of it are there; 0 for any. [1/s]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """Against contraction while contracting, with it while extending. [N]."""
-        return -at.direction * self.magnitude * called_up(at.rate, self.slip)
+        """Against contraction while contracting, with it while extending. [N].
+
+        With a distance, at rest, all that the travel before left.
+        """
+        share = 1.0 if self.distance > 0 else called_up(at.rate, self.slip)
+        return -at.direction * self.magnitude * share
 
     def rest(self) -> Array:
         """A sign that begins with the first travel."""

@@ -189,7 +189,7 @@ def _dahl(
         if np.isnan(last) or np.isnan(sign):
             last, sign = signal[index], toward
         # Noise goes to and fro: only what is gained counts.
-        gained = (signal[index] - last) * toward
+        gained = (signal[index] - last) * np.sign(toward)
         if gained > 0:
             last = signal[index]
         kept = np.exp(-max(gained, 0.0) / distance) if distance > 0 else 0.0

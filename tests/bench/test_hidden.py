@@ -139,11 +139,23 @@ def test_the_bench_waits_as_long_as_any_valve() -> None:
     assert parameters(ValveLag)["dead_time"].high <= DEAD
 
 
-def test_friction_that_grows_with_the_rate_is_none_at_rest(chain: Chain) -> None:
-    friction = CoulombFriction(20.0, distance=1e-3, slip=3e-3)
+def test_friction_that_goes_by_the_rate_alone_is_none_at_rest(chain: Chain) -> None:
+    friction = CoulombFriction(20.0, slip=3e-3)
     plant = grasping(chain, friction)
     seen = with_effect(chain, friction).predict(CURRENT, PressedObject(SIZE, STIFFNESS))
     assert plant.grip == pytest.approx(seen.grip_force, rel=5e-3)
+
+
+def test_friction_that_turns_over_a_distance_keeps_hold_of_what_was_closed(
+    chain: Chain,
+) -> None:
+    friction = CoulombFriction(20.0, distance=1e-3, slip=3e-3)
+    pressed = PressedObject(SIZE, STIFFNESS)
+    free = chain.predict(CURRENT, pressed).grip_force
+    held = free - with_effect(chain, friction).predict(CURRENT, pressed).grip_force
+    # The end of the way is slow: a part of it wanes there, which no prediction knows.
+    kept = free - grasping(chain, friction).grip
+    assert 0.85 * held < kept < held
 
 
 def test_a_creeping_muscle_goes_on_pulling_harder_at_constant_pressure(

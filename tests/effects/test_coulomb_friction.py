@@ -70,9 +70,22 @@ def test_without_a_distance_it_goes_by_the_rate_alone(muscle: Muscle) -> None:
     assert force == pytest.approx(-15.0 * np.tanh(rate / 3e-3))
 
 
-def test_what_comes_to_rest_slowly_is_held_by_nothing(muscle: Muscle) -> None:
+def test_a_muscle_is_held_by_what_its_travel_left(muscle: Muscle) -> None:
     friction = CoulombFriction(15.0, distance=1e-3, slip=3e-3)
-    static = StaticMuscle(muscle, (friction,))
+    since = np.linspace(0.0, 5.0, 501)
+    # It stops in 50 ms or so: from 0.1/s on, the last 1.5e-4 of the way are slow.
+    rate = 0.1 * np.exp(-since / 0.05)
+    way = 0.1 + 0.005 * (1 - np.exp(-since / 0.05))
+    track = track_of(muscle, contraction=way, rate=rate)
+    left = friction.along(np.zeros(501), track, friction.rest())[-1]
+    ideal = StaticMuscle(muscle).force(2e5, 0.1)
+    for direction in Direction:
+        held = StaticMuscle(muscle, (friction,)).force(2e5, 0.1, direction)
+        assert held - ideal == pytest.approx(direction * left, rel=0.15)
+
+
+def test_without_a_distance_nothing_holds_it_at_rest(muscle: Muscle) -> None:
+    static = StaticMuscle(muscle, (CoulombFriction(15.0, slip=3e-3),))
     ideal = StaticMuscle(muscle).force(2e5, 0.1)
     assert static.force(2e5, 0.1, Direction.CONTRACTING) == pytest.approx(ideal)
 
