@@ -88,11 +88,11 @@ def smooth(
 def _with_travel(
     slope: Array, level: Array, time: Array, leapt: Sequence[slice]
 ) -> Array:
-    """Slope that knows of leaps in a row: together they are a way, at a rate."""
+    """Slope that knows of leaps one way in a row: they are a way, at a rate."""
     found = slope.copy()
     for row in leapt:
-        if row.stop - row.start > 1:
-            way = slice(row.start - 1, row.stop)
+        way = slice(row.start - 1, row.stop)
+        if row.stop - row.start > 1 and np.ptp(np.sign(np.diff(level[way]))) == 0:
             found[row] = np.gradient(level[way], time[way])[1:]
     return found
 

@@ -112,3 +112,12 @@ def test_leaps_in_a_row_are_a_way_at_a_rate() -> None:
     assert row.stop - row.start > 5
     assert leaping.rate[row] == pytest.approx(300.0, rel=0.1)
     assert np.abs(np.delete(leaping.rate, np.r_[row])).max() < 30.0
+
+
+def test_a_reading_that_leaps_up_and_back_has_no_rate() -> None:
+    time = np.arange(0.0, 40.0, 0.1)
+    noise = np.random.default_rng(4).normal(0.0, 1.0, time.size)
+    wrong = np.where(np.arange(time.size) == 200, 300.0, 0.0)
+    leaping = smooth(time, noise + wrong, 1.0, leap=5.0)
+    assert leaping.leapt
+    assert np.abs(leaping.rate).max() < 5.0
