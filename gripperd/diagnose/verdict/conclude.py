@@ -101,7 +101,7 @@ def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
     """
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         return conclusion
-    remains = is_open or bool(_remaining(conclusion.before))
+    remains = is_open or bool(_remaining(conclusion.before)) or bool(conclusion.louder)
     verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
     return replace(conclusion, verdict=verdict)
 
@@ -111,8 +111,13 @@ def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:
 
 
 def _louder(problem: Problem, fit: Polished) -> dict[Signal, float]:
-    squares = loudness(problem, problem.residuals(fit.point))
-    return {one: square**0.5 for one, square in squares.items() if square > LOUD}
+    """Signals of which visibly more is left than their noise, and how much louder."""
+    found = {}
+    for signal, square in loudness(problem, problem.residuals(fit.point)).items():
+        over = max(square - 1, 0.0) ** 0.5 * problem.noises[signal].std
+        if square > LOUD and over > VISIBLE * problem.full_scale[signal]:
+            found[signal] = square**0.5
+    return found
 
 
 def _excess(found: Sequence[Structure]) -> float:

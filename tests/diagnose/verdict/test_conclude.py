@@ -21,6 +21,7 @@ from tests.diagnose.small import (
     FORCE_NOISE,
     MODEL,
     Hidden,
+    Moment,
     altered,
     moments,
     nothing,
@@ -83,6 +84,23 @@ def test_what_is_too_loud_for_noise_is_unexplained_whatever_it_looks_like(
         assert concluded.signals == (Signal.FORCE,)
         told_of = signature(problem, Contest(told.found.null), concluded)
         assert "force: 2.2 times as loud as its noise" in told_of
+
+
+def test_what_is_too_loud_but_small_is_no_more_than_sensors_do() -> None:
+    def rippled(moment: Moment) -> Array:
+        """A newton of a pull of 1272 N, ten times as loud as this cell's noise."""
+        return np.sin(3 * np.pi * moment.pressure / 500e3 + 20 * moment.contraction)
+
+    assert (
+        diagnose(recording(rippled, noise=0.1), MODEL, {}, {}).verdict is Verdict.NONE
+    )
+
+
+def test_a_name_withdrawn_from_what_is_loud_leaves_it_unexplained() -> None:
+    loud = Conclusion(Verdict.NAMED, (), 1.0, (), {Signal.FORCE: 2.0})
+    assert not_confirmed(loud, is_open=False).verdict is Verdict.UNEXPLAINED
+    calm = Conclusion(Verdict.NAMED, (), 1.0)
+    assert not_confirmed(calm, is_open=False).verdict is Verdict.NONE
 
 
 @pytest.mark.parametrize(
