@@ -24,9 +24,10 @@ from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.search.resting import with_resting_sign, with_stiction
+from gripperd.diagnose.search.resting import with_resting_sign
 from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.search.stiction import with_stiction
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.conclude import (
@@ -169,8 +170,7 @@ def _diagnosed(
     best = with_overstepped(found, best, listed)
     best = with_usual_tolerances(found, best)
     found, best = with_aftermath(found, best, listed, train.noises)
-    found, best = with_stiction(found, best)
-    parts = parts.explained_by(found.problem.model)
+    best = with_stiction(found, best)
     progress("verdict", 0.9)
     return _told(recording, parts, found, best, untested, seed)
 

@@ -8,6 +8,7 @@ from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.recording import Contradiction, Rejection
+from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed
 from gripperd.diagnose.verdict.key import key_of_constant, keys_of, plain, public
@@ -64,7 +65,8 @@ def statement(diagnosis: Diagnosis, entry: Named) -> str:
     if entry.effect is None:
         whose = "the model and its tolerance" if _tight(diagnosis) else "the model"
         return f"{what[0].upper()}{what[1:]}; correct {whose}."
-    return f"The model lacks {what}{_shown(entry)}; so {entry.effect.remedy}."
+    shown = f"{_shown(entry)}{_held(diagnosis, entry)}"
+    return f"The model lacks {what}{shown}; so {entry.effect.remedy}."
 
 
 def _effect(entry: Named) -> str:
@@ -74,6 +76,14 @@ def _effect(entry: Named) -> str:
 
 def _shown(entry: Named) -> str:
     return f": {entry.effect.shows}" if entry.effect else ""
+
+
+def _held(diagnosis: Diagnosis, entry: Named) -> str:
+    """Say that friction holds what rests better, which no model file keeps."""
+    more = diagnosis.explained.stiction
+    if not more or entry.name not in DRY:
+        return ""
+    return f"; what rests it holds up to {1 + more:.1f} times as much here"
 
 
 def _corrected(diagnosis: Diagnosis, entry: Named) -> str:

@@ -22,6 +22,8 @@ class Point:
     """Constants found to be wrong: their tolerance no longer holds them."""
     looser: tuple[float, ...] = ()
     """Prior of each constant instead, in its stated sigma; none for as stated."""
+    stiction: float = 0.0
+    """By how much better friction holds what rests than what slides. [-]"""
 
     @property
     def widths(self) -> Array:

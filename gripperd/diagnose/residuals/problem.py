@@ -1,7 +1,7 @@
 """One recording against one model: what it says, and what is left."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -90,6 +90,7 @@ class Problem:
     def explanation(self, point: Point) -> Explanation:
         """Give the model at a point."""
         model = moved(self.model, self.constants, point.shifts.tolist())
+        model = replace(model, stiction=point.stiction)
         for effect in point.effects:
             model = model.with_effect(effect)
         return model

@@ -112,7 +112,7 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
         turns = explanation.at_rest is AtRest.INFLATING and not known.any()
         pressure = course.level("pressure")[piece]
         if turns and np.isfinite(pressure).all():
-            found[piece] = _inflating(pressure, sign)
+            found[piece] = _inflating(pressure, sign) * (1 + explanation.stiction)
         else:
             known[known == 0] = sign * (1 + explanation.stiction)
     return found

@@ -76,18 +76,24 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
             break
         best = idle
         challenged = _all_challenged(found.problem, best, listed)
-    closed = found.null.fit.cost - best.fit.cost
-    margin = _margin(best, closed)
+    places = tuple(Place(without, tuple(rivals)) for without, rivals in challenged)
+    return standing_in(found, Contest(best, places))
+
+
+def standing_in(found: Found, told: Contest) -> Contest:
+    """Keep of the rivals those that fit as well, best first."""
+    best = told.best
+    margin = _margin(best, found.null.fit.cost - best.fit.cost)
     places = []
-    for index, (without, rivals) in enumerate(challenged):
-        rivals.sort(key=lambda one: -one.evidence)
+    for index, place in enumerate(told.places):
+        rivals = sorted(place.rivals, key=lambda one: -one.evidence)
         alike = (
             rival
             for rival in rivals
             if best.evidence - rival.evidence < margin
             and _stands_in(found.problem, best, index, rival, margin)
         )
-        places.append(Place(without, tuple(alike)))
+        places.append(replace(place, rivals=tuple(alike)))
     return Contest(best, tuple(places))
 
 

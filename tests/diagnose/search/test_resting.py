@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.fit.candidates import candidates
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.explanation import AtRest
@@ -9,10 +8,8 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.resting import with_resting_sign
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
-from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.small import (
-    FORCE_NOISE,
     MODEL,
     Hidden,
     Moment,
@@ -63,40 +60,6 @@ def test_nothing_else_of_the_problem_changes() -> None:
     assert decided.constants == problem.constants
     assert decided.noises == problem.noises
     assert decided.courses is problem.courses
-
-
-def _stuck(static: float) -> Hidden:
-    """Friction of 60 N while it slides, and so many times that where it rests."""
-    return lambda moment: (
-        -60.0 * moment.direction * (1.0 if np.ptp(moment.contraction) > 0 else static)
-    )
-
-
-@pytest.mark.parametrize(("static", "stiction"), [(1.0, 0.0), (1.25, 0.3)])
-def test_friction_may_hold_what_rests_better_than_what_slides(
-    static: float, stiction: float
-) -> None:
-    found = diagnose(recording(_stuck(static)), MODEL, {}, LIBRARY)
-    assert [entry.name for entry in found.named] == ["coulomb_friction"]
-    assert found.split.train.model.stiction == stiction
-    assert found.split.test.model.stiction == stiction
-    told = found.named[0].parameters["magnitude"]
-    assert told.value == pytest.approx(60.0, abs=1.5)
-    assert found.gaps[Signal.FORCE].after < 1.2 * FORCE_NOISE
-    courses = found.split.train.courses
-    signs = found.split.train.explanation(found.explained).rests
-    held = [
-        sign * (1 + stiction)
-        for course, sign in signs.items()
-        if courses[course].run in "abc"
-    ]
-    assert held == pytest.approx([static] * 3, abs=0.08)
-
-
-def test_what_is_no_friction_has_no_stiction() -> None:
-    found = diagnose(recording(lambda m: 60.0 + 0 * m.time), MODEL, {}, LIBRARY)
-    assert [entry.name for entry in found.named] == ["force_sensor_bias"]
-    assert found.split.train.model.stiction == 0.0
 
 
 def test_without_a_sweep_at_rest_there_is_nothing_to_decide() -> None:
