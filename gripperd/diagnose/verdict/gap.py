@@ -70,7 +70,7 @@ class Gap:
 
     @property
     def is_spoilt(self) -> bool:
-        """Whether effects take a signal that constants explain far from its noise."""
+        """Whether effects leave a signal far worse than its noise and constants do."""
         least = max(self.recalibrated, self.noise_floor)
         return self.ci95_after[0] > REACHED * least
 
