@@ -18,8 +18,10 @@ STRUCTURED = 1e-4
 VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
 LOUD = 2.0
-"""Mean square of what is left, in whatever order, from which it is no noise: the noise
-of a sensor is known to a tenth. [-]"""
+"""Mean square of what is left, in whatever order, from which it is no noise: that of a
+sensor is known to a tenth. [-]"""
+FAR = 3.0
+"""Standard errors of a mean square on top: few samples know their noise less well."""
 EXPLAINED = 0.85
 """Share of the structure that a right explanation takes away, in whatever form: on rigs
 nobody here had seen 0.91 at least, and 0.83 at most of what no library holds. [-]"""
@@ -115,7 +117,8 @@ def _louder(problem: Problem, fit: Polished) -> dict[Signal, float]:
     found = {}
     for signal, square in loudness(problem, problem.residuals(fit.point)).items():
         over = max(square - 1, 0.0) ** 0.5 * problem.noises[signal].std
-        if square > LOUD and over > VISIBLE * problem.full_scale[signal]:
+        least = LOUD * (1 + FAR * (2 / fit.counts[signal]) ** 0.5)
+        if square > least and over > VISIBLE * problem.full_scale[signal]:
             found[signal] = square**0.5
     return found
 

@@ -96,6 +96,22 @@ def test_what_is_too_loud_but_small_is_no_more_than_sensors_do() -> None:
     )
 
 
+@pytest.mark.parametrize(("samples", "loud"), [(72, False), (400, True)])
+def test_few_samples_must_be_louder(samples: int, *, loud: bool) -> None:
+    # Three standard errors of a mean square: 3.0 of 72 samples, 2.42 of 400.
+    told = diagnose(recording(nothing), MODEL, {}, {})
+    fit = told.found.null.fit
+    counted = replace(fit, counts={**fit.counts, Signal.FORCE: samples})
+    known = told.split.train.noises
+    quiet = replace(
+        known[Signal.FORCE], std=known[Signal.FORCE].std / 2.7**0.5, drift=0.0
+    )
+    problem = replace(told.split.train, noises={**known, Signal.FORCE: quiet})
+    null = replace(told.found.null, fit=counted)
+    louder = conclude(problem, told.found, Contest(null)).louder
+    assert (Signal.FORCE in louder) is loud
+
+
 def test_a_name_withdrawn_from_what_is_loud_leaves_it_unexplained() -> None:
     loud = Conclusion(Verdict.NAMED, (), 1.0, (), {Signal.FORCE: 2.0})
     assert not_confirmed(loud, is_open=False).verdict is Verdict.UNEXPLAINED
