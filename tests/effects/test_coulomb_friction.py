@@ -39,6 +39,14 @@ def test_after_a_reversal_it_turns_round_within_its_distance(muscle: Muscle) -> 
     assert force == pytest.approx([-15 * sign for sign in signs])
 
 
+def test_a_way_counts_in_full_whatever_holds_there(muscle: Muscle) -> None:
+    friction = CoulombFriction(15.0, distance=1e-3)
+    direction = np.array([1.0, 0.5])
+    track = track_of(muscle, contraction=np.array([0.1, 0.101]), direction=direction)
+    force = friction.along(np.zeros(2), track, friction.rest())
+    assert force == pytest.approx([-15.0, -15.0 * (0.5 + 0.5 / np.e)])
+
+
 def test_noise_at_rest_does_not_turn_it(muscle: Muscle) -> None:
     friction = CoulombFriction(15.0, distance=1e-3)
     noise = np.tile([1e-4, -1e-4], 200).astype(np.float64)
