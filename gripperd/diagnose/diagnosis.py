@@ -159,7 +159,7 @@ def _diagnosed(
     listed, untested = candidates(library, parts.train, _columns(recording))
     progress("friction at rest", 0.2)
     train = with_resting_sign(parts.train, listed)
-    parts = parts.explained_by(train.model)
+    parts = replace(parts, train=train, test=replace(parts.test, model=train.model))
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
     progress("rivals", 0.7)

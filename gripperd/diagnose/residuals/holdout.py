@@ -14,7 +14,6 @@ import numpy as np
 
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
-from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.usable import PRESSED
 from gripperd.model.effect import Signal
@@ -46,11 +45,6 @@ class Split:
     test: Problem
     runs: tuple[str, ...]
     """Names of what was left out."""
-
-    def explained_by(self, model: Explanation) -> "Split":
-        """Give both parts another model, at its nominal constants."""
-        train, test = (replace(part, model=model) for part in (self.train, self.test))
-        return replace(self, train=train, test=test)
 
 
 def split(problem: Problem) -> Split:

@@ -9,6 +9,7 @@ from gripperd.effects import EFFECTS
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.model import Direction, StaticMuscle
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from tests.diagnose.small import FORCE_NOISE, MODEL, Hidden, Moment, recording
 
 SLIDING = 60.0
@@ -17,7 +18,7 @@ SLIDING = 60.0
 def _stuck(static: float) -> Hidden:
     """Friction while it slides, and so many times that where it rests."""
 
-    def held(moment: Moment) -> np.ndarray:
+    def held(moment: Moment) -> Array:
         times = 1.0 if np.ptp(moment.contraction) > 0 else static
         return -SLIDING * times * moment.direction
 
