@@ -58,14 +58,14 @@ def statement(diagnosis: Diagnosis, entry: Named) -> str:
         return f"Nearest, and no explanation of what is seen: {what}."
     if entry.equivalents:
         others = listed(list(map(plain, entry.equivalents)), "or")
-        said = f"Perhaps {what}{_shown(entry)}"
+        said = f"Perhaps {what}{_shown(diagnosis, entry)}"
         return f"{said}; this recording cannot tell it from {others}."
     if diagnosis.explained.looser and any(one.equivalents for one in diagnosis.named):
         return f"Perhaps {what}, with the others."
     if entry.effect is None:
         whose = "the model and its tolerance" if _tight(diagnosis) else "the model"
         return f"{what[0].upper()}{what[1:]}; correct {whose}."
-    shown = f"{_shown(entry)}{_held(diagnosis, entry)}"
+    shown = _shown(diagnosis, entry)
     return f"The model lacks {what}{shown}; so {entry.effect.remedy}."
 
 
@@ -74,8 +74,10 @@ def _effect(entry: Named) -> str:
     return f"{plain(entry.name)}, worth {worth} of {entry.signal.value} (rms)"
 
 
-def _shown(entry: Named) -> str:
-    return f": {entry.effect.shows}" if entry.effect else ""
+def _shown(diagnosis: Diagnosis, entry: Named) -> str:
+    if entry.effect is None:
+        return ""
+    return f": {entry.effect.shows}{_held(diagnosis, entry)}"
 
 
 def _held(diagnosis: Diagnosis, entry: Named) -> str:
