@@ -14,6 +14,10 @@ from gripperd.link.frames import Answer, Ask, decode, encode, frame, raised, rea
 
 T = TypeVar("T")
 
+LOOKS = 4
+"""Parts that a wait has. A stall of this process ends one of them, however long it was:
+what was answered meanwhile is still read."""
+
 
 class Client:
     """Connects when asked, and again after the other end was restarted.
@@ -57,13 +61,14 @@ class Client:
         self._waiting[number] = answer
         try:
             writer.write(frame(Ask(number, msgspec.Raw(encode(request)))))
-            async with asyncio.timeout(seconds):
-                found = await answer
-        except TimeoutError as error:
-            message = f"{self._peer} did not answer within {seconds:g} s"
-            raise ReplyTimeout(message) from error
+            for _ in range(LOOKS):
+                if not answer.done():
+                    await asyncio.wait([answer], timeout=seconds / LOOKS)
         finally:
             self._waiting.pop(number, None)
+        if not answer.done():
+            raise ReplyTimeout(f"{self._peer} did not answer within {seconds:g} s")
+        found = answer.result()
         if found.failed is not None:
             raise raised(found.failed)
         return decode(found.body, reply)

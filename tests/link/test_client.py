@@ -1,4 +1,5 @@
 import asyncio
+import time
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
@@ -86,6 +87,20 @@ async def test_no_answer_in_time_is_told_and_the_line_stays(socket_path: Path) -
         # The late answer to the first question is not that to the second.
         assert await client.ask(Say("egg"), str) == "egg"
         assert client._waiting == {}
+    await client.close()
+
+
+async def test_a_stall_of_this_process_is_no_silence_of_the_other(
+    socket_path: Path,
+) -> None:
+    async def stall(body: msgspec.Raw) -> object:
+        # Client and server share the loop: neither sees anything for so long.
+        time.sleep(1.2)  # noqa: ASYNC251
+        return decode(body, Say).text
+
+    client = Client(socket_path, "the control process")
+    async with serve(socket_path, stall):
+        assert await client.ask(Say("egg"), str, 1.0) == "egg"
     await client.close()
 
 
