@@ -55,10 +55,26 @@ def test_where_one_hold_sinks_and_another_stays_only_the_first_may_be_shut() -> 
     np.testing.assert_allclose(waits["shut"], _lasting(30.0))
 
 
+def test_holds_that_stay_tell_together_what_none_of_them_tells_alone() -> None:
+    # Each would have lost 8 kPa: little more than a sensor may drift, in any of them.
+    stay = {name: _kept(25.0) for name in "abcde"}
+    waits = _recorded({**stay, "shut": _leaking(46.0, 8e-4)})
+    assert not any(waits[name].any() for name in stay)
+    np.testing.assert_allclose(waits["shut"], _lasting(46.0))
+
+
 @pytest.mark.parametrize(
     "holds",
     [
         pytest.param({"a": _leaking(30.0), "b": _leaking(60.0)}, id="all sink"),
+        pytest.param(
+            # A hole whose flow is as the power 1.5 of the pressure.
+            {
+                **{name: _leaking(55.0, 6.3e-4, 0.4 * TOP) for name in "abcde"},
+                "f": _leaking(30.0, 1e-3),
+            },
+            id="those at low pressure sink less than a sensor drifts",
+        ),
         pytest.param({"a": _kept(30.0), "b": _kept(60.0)}, id="none sinks"),
         pytest.param({"a": _kept(3.0), "b": _leaking(30.0)}, id="one is too short"),
         pytest.param(
