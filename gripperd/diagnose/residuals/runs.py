@@ -37,6 +37,29 @@ class Runs(Track):
             for piece in self.slices
         )
 
+    @cached_property
+    def _ends(self) -> tuple[Array, Array]:
+        """Place of the first and of the last sample of each run."""
+        limits = [piece.indices(self.time.size) for piece in self.slices]
+        starts, stops, _ = np.array(limits).T
+        return starts, stops - 1
+
+    def slope(self, value: Array) -> Array:
+        """How fast a signal changes from sample to sample, in each run. [1/s].
+
+        Of second order, as of :func:`numpy.gradient`; 0 in a run of one sample.
+        """
+        starts, ends = self._ends
+        steps, changes = np.diff(self.time), np.diff(value)
+        # From one run to the next nothing changes.
+        steps[ends[:-1]], changes[ends[:-1]] = 1.0, 0.0
+        slopes = np.concatenate([[0.0], changes / steps, [0.0]])
+        steps = np.concatenate([[1.0], steps, [1.0]])
+        before, after = steps[:-1], steps[1:]
+        found: Array = (after * slopes[:-1] + before * slopes[1:]) / (before + after)
+        found[starts], found[ends] = slopes[starts + 1], slopes[ends]
+        return found
+
     def each(self, change: Callable[[Array, Track], Array], value: Array) -> Array:
         """Change a signal in each run by itself."""
         return np.concatenate(

@@ -101,15 +101,10 @@ def _strained(explanation: Explanation, track: Runs) -> Runs:
         return track
     stretch = np.asarray(sum(hidden))
     contraction = track.contraction + stretch
-    rate = track.rate + track.each(_rate, stretch)
+    rate = track.rate + track.slope(stretch)
     turned = track.each(_turned, contraction) - track.each(_turned, track.contraction)
     direction = np.clip(track.direction + turned, -1.0, 1.0)
     return replace(track, contraction=contraction, rate=rate, direction=direction)
-
-
-def _rate(value: Array, run: Track) -> Array:
-    """How fast a value changes from sample to sample. [1/s]."""
-    return np.gradient(value, run.time) if value.size > 1 else np.zeros_like(value)
 
 
 def _turned(contraction: Array, run: Track) -> Array:
@@ -132,7 +127,7 @@ def _read(explanation: Explanation, signal: Signal, value: Array, track: Runs) -
             value = _along(sensor, value, track)
     skew = explanation.skews.get(signal, 0.0)
     if skew and signal in (Signal.OPENING, Signal.GRIP):
-        value = value - skew * track.each(_rate, value)
+        value = value - skew * track.slope(value)
     return value + explanation.zeros.get(signal, 0.0)
 
 

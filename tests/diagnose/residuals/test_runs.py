@@ -70,3 +70,14 @@ def test_a_column_that_one_sweep_lacks_is_not_known_there(
 ) -> None:
     mute = courses(without(recording(), "current", "force"), 0.25)[0]
     _check(SEEN, (sweeps[0], mute[1], sweeps[2]))
+
+
+def test_a_slope_is_that_of_each_run_by_itself(sweeps: tuple[Course, ...]) -> None:
+    runs = (slice(0, 2), slice(2, 3), slice(3, len(sweeps[0])))
+    track = replace(track_of(SEEN, sweeps[0], 0), slices=runs)
+    value = np.random.default_rng(5).normal(size=len(sweeps[0]))
+    expected = [
+        np.gradient(value[run], track.time[run]) if run.stop - run.start > 1 else [0.0]
+        for run in runs
+    ]
+    np.testing.assert_allclose(track.slope(value), np.concatenate(expected))
