@@ -66,7 +66,7 @@ def protocol(random: np.random.Generator, *, taut: bool) -> list[Sweep]:
         for k, p in enumerate(_spread(110.0, 440.0, int(random.integers(4, 6)), random))
     ]
     steps = [_step(k, random) for k in range(int(random.integers(1, 3)))]
-    grasps = [_grasp(k, random) for k in range(int(random.integers(2, 4)))]
+    grasps = [_grasp(k, random) for k in range(int(random.integers(4, 6)))]
     sweeps = [
         *isometric,
         *isobaric,
