@@ -13,6 +13,8 @@ from tests.exam.peers.exhibit import Guess
 
 BLIND = tuple(METHODS)[3:]
 """Methods that cannot name a single effect, only a family."""
+WITHIN = ("single", "pair")
+"""Kinds of cases that hide what the library holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,11 +56,11 @@ class Seen:
 
     @property
     def gap(self) -> float:
-        """Held-out residual over the noise floor, in the signal of the effect."""
-        signal = self.outcome.hidden[0].signal
-        if signal not in self.guess.after:
-            signal = "force"
-        return self.guess.after[signal] / self.outcome.floors[signal]
+        """Held-out residual over the noise floor, in the worst signal of an effect."""
+        after, floors = self.guess.after, self.outcome.floors
+        shown = {one.signal for one in self.outcome.hidden}
+        signals = {signal if signal in after else "force" for signal in shown}
+        return max(after[signal] / floors[signal] for signal in signals)
 
 
 def side_by_side(outcomes: Sequence[Outcome]) -> Table:
@@ -87,13 +89,14 @@ def _line(name: str, turns: Sequence[tuple[Outcome, Turn]]) -> tuple[str, ...]:
         return (failed[0].splitlines()[-1] if failed else "", *[""] * 6)
     singles = [one for one in seen if one.outcome.question.kind == "single"]
     nothing = [one for one in seen if one.outcome.question.kind in ("none", "drift")]
-    gap = np.median([one.gap for one in singles]) if singles else np.nan
+    within = [one.gap for one in seen if one.outcome.question.kind in WITHIN]
+    gaps = np.percentile(within, (50, 90)) if within else (np.nan, np.nan)
     seconds = np.mean([turn.seconds for _, turn in turns if turn.guess])
     return (
         "cannot" if name in BLIND else _share(singles, lambda one: one.exact),
         _share(singles, lambda one: one.familiar),
         _share(nothing, lambda one: one.alarmed),
-        f"{gap:.2f}",
+        "{:.2f}, {:.2f}".format(*gaps),
         _share(seen, lambda one: one.worse),
         _share(seen, lambda one: one.harmed),
         f"{seconds:.1f}" + (f", {len(failed)} failed" if failed else ""),
