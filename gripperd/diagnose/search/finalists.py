@@ -41,29 +41,33 @@ def finalists(
     # leader are heard as well.
     doubles = best[0].candidate.doubles
     late = [one for one in best[FINALISTS:] if one.candidate.name in doubles]
-    first = heard(problem, [(one,) for one in best], FINALISTS)
+    first = heard(problem, singles, [(one,) for one in best], FINALISTS)
     alone = (
         [*first, *((one,) for one in late)]
         if thrifty
         else [(one,) for one in around.members]
     )
     pairs = sorted(combinations(best, 2), key=lambda pair: -around.fit(*pair).evidence)
-    return [*alone, *heard(problem, pairs, FINALISTS)]
+    return [*alone, *heard(problem, singles, pairs, FINALISTS)]
 
 
 def heard(
-    problem: Problem, ranked: Sequence[tuple[Member, ...]], most: int
+    problem: Problem,
+    singles: Mapping[Member, float],
+    ranked: Sequence[tuple[Member, ...]],
+    most: int,
 ) -> list[tuple[Member, ...]]:
     """Give the first few; where misfit counts, the first of each stage as well.
 
-    There one signal may be so loud that no other would have its say.
+    There one signal may be so loud that no other would have its say. What gains nothing
+    on its own has none.
     """
     found = list(ranked[:most])
     if problem.is_hot:
         met = {_signals(problem, members) for members in found}
         for members in ranked[most:]:
             signals = _signals(problem, members)
-            if signals not in met:
+            if signals not in met and all(singles[one] > 0 for one in members):
                 met.add(signals)
                 found.append(members)
     return found

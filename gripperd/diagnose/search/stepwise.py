@@ -176,9 +176,10 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
         around = design(problem, best.fit.point, listed)
         base = around.fit().evidence
         singles = {m: around.fit(m).evidence - base for m in around.members}
+        alone = [(member,) for member in leaders(singles)]
         grown = [
             larger(problem, best, member.candidate)
-            for (member,) in heard(problem, [(m,) for m in leaders(singles)], NEXT)
+            for (member,) in heard(problem, singles, alone, NEXT)
             if singles[member] > found.threshold
         ]
         grown += _with_bore(problem, best, listed)
