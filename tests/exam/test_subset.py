@@ -47,8 +47,7 @@ def test_what_is_found_closes_the_gap_on_sweeps_left_out(
 ) -> None:
     found = [residue(one) for one in _of(answers, "single")]
     gaps = [gap for gap in found if gap is not None]
-    # Of two grasps none can be left out, so the jaws may go unjudged.
-    assert len(gaps) >= len(found) - 1, "no sweep that was left out shows the effect"
+    assert len(gaps) == len(found), "no sweep that was left out shows the effect"
     assert all(gap.after < gap.recalibrated for gap in gaps)
     assert sum(gap.after <= 1.15 * gap.sensor_floor for gap in gaps) >= 3
 
