@@ -64,7 +64,7 @@ def waiting(courses: Sequence[Course]) -> list[Array]:
     due = slowest * np.array([hold.level * hold.lasts for hold in stay])
     lost = np.array([hold.lost for hold in stay])
     # The share of what is due that all of them lost, and two standard deviations of it.
-    if not due @ lost + least * np.sqrt(due @ due) < KEPT * (due @ due):
+    if due @ lost + least * np.sqrt(due @ due) >= KEPT * (due @ due):
         return [course.still for course in courses]
     found = []
     for course, own in zip(courses, held, strict=True):
