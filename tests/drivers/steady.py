@@ -25,6 +25,7 @@ class Clock:
     """Goes on as real time does, but at most by `MOST` while an octet is on its way.
 
     It has crossed a pseudo terminal, and the event loop, when the next one sets out.
+    None does once the line is closed: then time goes on as it does.
     """
 
     def __init__(self, line: Line[Any]) -> None:
@@ -40,7 +41,8 @@ class Clock:
         self._send()
 
     def now(self) -> float:
-        return self._time + min(time.monotonic() - self._real, MOST)
+        gone = time.monotonic() - self._real
+        return self._time + (gone if self._line.closed.is_set() else min(gone, MOST))
 
     def _tick(self) -> None:
         """Begin a turn, and another one soon, as long as the line is open."""

@@ -92,6 +92,19 @@ async def test_a_request_waits_for_three_and_a_half_characters_of_silence(
         assert time.monotonic() - answered < SOON
 
 
+async def test_a_request_that_waits_for_silence_ends_when_the_adapter_is_unplugged(
+    path: Path,
+) -> None:
+    async with over_rtu(path, silence=0.2) as (bus, far):
+        await bus.ask(read(0))
+        asking = asyncio.create_task(bus.ask(read(0)))
+        await asyncio.sleep(0)
+        far.unplug()
+        with pytest.raises(LinkLost):
+            await asyncio.wait_for(asking, SOON)
+        assert len(far.asked) == 1
+
+
 async def test_noise_between_requests_is_counted_and_forgotten(
     path: Path, eventually: Eventually
 ) -> None:
