@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial.polynomial import polyvander2d
 from scipy.sparse.csgraph import connected_components
 
 from gripperd.diagnose.readings.believed import believed
@@ -28,6 +29,14 @@ SHARE = 1 / 3
 """Of the sweeps that can be compared, in the smaller camps. [-]"""
 FEWEST = 2
 """Sweeps in a camp."""
+FLAT = 0.18
+"""What one surface leaves of the readings of camps that it reconciles, of their root
+mean square: two that differ by :data:`APART` leave a fifth. [-]"""
+DEGREES = [2, 4]
+"""Of the surface, in pressure and in contraction or length."""
+STEEP = 1.7
+"""Size of its coefficients over half of each range, of that root mean square: with
+steeper ones the offset of a mount would carry any factor. [-]"""
 LEFT = 0.5
 """Share of the rows that has to remain when contradicting sweeps are left out. [-]"""
 
@@ -39,6 +48,8 @@ class Atlas:
     name: str
     readings: Array
     """Shape of the places, NaN where the sweep did not go."""
+    stands: Array
+    """Where in each place on average, from -1 to 1 over all; shape ``(places, 2)``."""
 
 
 def beyond_use(recording: Recording) -> tuple[Contradiction, ...]:
@@ -62,7 +73,7 @@ def _all_camps(runs: Sequence[Run]) -> Iterator[Contradiction]:
         smaller = sum(min(len(first), len(second)) for first, second in pairs)
         if smaller and smaller >= SHARE * comparable:
             for first, second in pairs:
-                if first and second:
+                if first and second and not _reconciled([*first, *second]):
                     yield _contradiction(first, second, outcome)
 
 
@@ -70,27 +81,34 @@ def _atlases(runs: Sequence[Run], outcome: str, places: tuple[str, ...]) -> list
     able = [run for run in runs if all(run.has(name) for name in (outcome, *places))]
     if not able:
         return []
-    edges = [_edges(able, name) for name in places]
-    return [Atlas(run.name, _readings(run, outcome, places, edges)) for run in able]
+    ranges = [_range(able, name) for name in places]
+    return [_atlas(run, outcome, places, ranges) for run in able]
 
 
-def _edges(runs: Sequence[Run], name: str) -> Array:
+def _range(runs: Sequence[Run], name: str) -> tuple[float, float]:
     values = np.concatenate([run.columns[name] for run in runs])
-    return np.linspace(np.nanmin(values), np.nanmax(values), LEVELS + 1)[1:-1]
+    return float(np.nanmin(values)), float(np.nanmax(values))
 
 
-def _readings(
-    run: Run, outcome: str, places: tuple[str, ...], edges: Sequence[Array]
-) -> Array:
+def _atlas(
+    run: Run,
+    outcome: str,
+    places: tuple[str, ...],
+    ranges: Sequence[tuple[float, float]],
+) -> Atlas:
     values = np.column_stack([run.columns[name] for name in (outcome, *places)])
     values = values[np.isfinite(values).all(1)]
-    place = np.zeros(len(values), dtype=np.intp)
-    for column, cuts in zip(values.T[1:], edges, strict=True):
-        place = place * LEVELS + np.searchsorted(cuts, column)
-    size = LEVELS ** len(places)
-    counts = np.bincount(place, minlength=size)
-    sums = np.bincount(place, weights=values[:, 0], minlength=size)
-    return np.where(counts > 0, sums / np.maximum(counts, 1), np.nan)
+    low, high = np.transpose(ranges)
+    stands = (values[:, 1:] - low) / np.where(high > low, high - low, 1.0)
+    cells = np.minimum((stands * LEVELS).astype(np.intp), LEVELS - 1)
+    place = np.ravel_multi_index(tuple(cells.T), (LEVELS,) * len(places))
+    counts = np.bincount(place, minlength=LEVELS ** len(places))
+    with np.errstate(invalid="ignore"):
+        means = [
+            np.bincount(place, weights=column, minlength=counts.size) / counts
+            for column in (values[:, 0], *(2 * stands.T - 1))
+        ]
+    return Atlas(run.name, means[0], np.column_stack(means[1:]))
 
 
 def _camps(atlases: Sequence[Atlas]) -> Iterator[tuple[list[Atlas], list[Atlas]]]:
@@ -133,6 +151,18 @@ def _compared(atlases: Sequence[Atlas]) -> tuple[Array, Array]:
     ratios = np.zeros_like(shared)
     ratios[comparable] = 0.5 * np.log(power[comparable] / power.T[comparable])
     return shared, ratios
+
+
+def _reconciled(atlases: Sequence[Atlas]) -> bool:
+    """Whether one smooth surface goes through the readings of all: ridge regression."""
+    reading = np.concatenate([one.readings for one in atlases])
+    stands = np.concatenate([one.stands for one in atlases])
+    seen = np.isfinite(reading)
+    surface = polyvander2d(stands[seen, 0], stands[seen, 1], DEGREES)
+    held = (FLAT / STEEP) ** 2 * seen.sum() * np.eye(surface.shape[1])
+    best = np.linalg.solve(surface.T @ surface + held, surface.T @ reading[seen])
+    left = reading[seen] - surface @ best
+    return bool(left @ left < FLAT**2 * (reading[seen] @ reading[seen]))
 
 
 def _gains(shared: Array, ratios: Array) -> Array:

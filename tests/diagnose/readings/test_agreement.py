@@ -1,13 +1,14 @@
 from collections.abc import Iterable
 
+import numpy as np
 import pytest
 
 from gripperd.diagnose.readings.agreement import beyond_use
 from gripperd.diagnose.readings.believed import believed
-from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.repeats import contradictions
 from tests.diagnose.small import altered, recording, rubbing, threshold, without
-from tests.diagnose.sweep import pulled
+from tests.diagnose.sweep import noise, pulled, run, triangle
 
 HALF = ("a", "c", "e", "b2")
 LBF = 0.2248
@@ -80,6 +81,38 @@ def test_too_little_left_without_the_weaker_repeats_is_beyond_use() -> None:
 def test_sweeps_that_share_no_place_cannot_disagree() -> None:
     apart = _isometric((0.0, 1.0), (0.05, 0.4), (0.1, 1.0), (0.15, 0.4))
     assert beyond_use(apart) == ()
+
+
+def _lifting(weight: float) -> Run:
+    """A muscle that inflates and deflates under a weight, and sticks when it turns."""
+    pressure = triangle(low=100e3)
+    rubbing = 20.0 * np.sign(np.linspace(-1.0, 1.0, pressure.size))
+    # 2 N/kPa at rest, and nothing left of it at a contraction of 0.25.
+    contraction = 0.25 * (1 - (weight - rubbing) / (2e-3 * pressure))
+    return run(
+        f"{weight:.0f} N",
+        pressure=pressure + noise(pressure.size, 1.5e3, 1),
+        contraction=contraction + noise(pressure.size, 1e-3, 2),
+        force=weight + noise(pressure.size, 4.0, int(weight)),
+    )
+
+
+def test_weights_of_different_size_meet_at_the_rim_of_a_place_and_agree() -> None:
+    runs = tuple(_lifting(weight) for weight in (90.0, 92.0, 148.0, 150.0))
+    told = Recording("bench", "0" * 64, runs)
+    assert beyond_use(told) == ()
+    # The same muscle through another gain: no surface holds both.
+    assert beyond_use(altered(told, ["148 N", "150 N"], "force", lambda f: 3 * f))
+
+
+@pytest.mark.parametrize("further", [0.0, 1e-4, 1e-3])
+def test_another_muscle_contradicts_though_its_mount_is_off(further: float) -> None:
+    sweeps = [
+        (length + further * (gain > 1), gain)
+        for length in (0.05, 0.1)
+        for gain in (1.0, 1.0, 1.0, 2.0, 2.0, 2.0)
+    ]
+    assert beyond_use(_isometric(*sweeps))
 
 
 def test_a_recording_without_force_is_not_judged_by_it() -> None:
