@@ -1,16 +1,21 @@
-"""Tension that is not seen: a slack muscle, or a converter at its end."""
+"""What is not seen: a slack muscle, or more than a converter can tell."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.fault import Fault
+from gripperd.diagnose.readings.frozen import noisy
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.stretches import resolution, stretches
 from gripperd.model.track import Array
 
-FORCE = BY_QUANTITY["force"]
+FORCE, PRESSURE = BY_QUANTITY["force"], BY_QUANTITY["pressure"]
+FOLLOWED = ("current", "contraction", "length", "force")
+"""What moves, one of them at least, while a pressure rises."""
+GONE_ON = 0.05
+"""Share of its range by which that moves at least. [-]"""
 FEWEST_ZEROS = 3
 """Exact zeros that are no coincidence."""
 SHORTEST = 10
@@ -51,6 +56,38 @@ def ends_of_scale(runs: Sequence[Run]) -> Iterator[Fault]:
         reason = f"at the {name} of the channel, {FORCE.shown(float(end))}"
         for index, run in pulled:
             yield Fault(index, "force", run.columns["force"] == end, reason)
+
+
+def ceilings(runs: Sequence[Run]) -> Iterator[Fault]:
+    """Find pressures that stay at the greatest value while something else goes on.
+
+    A supply that gives no more gives it with its noise. So a channel is asked for that
+    is noisy below: of one that repeats itself nobody can tell.
+    """
+    read = [(index, run) for index, run in enumerate(runs) if run.has("pressure")]
+    if not read:
+        return
+    end = float(_all(runs, "pressure").max())
+    below = [run.columns["pressure"][run.columns["pressure"] < end] for _, run in read]
+    if not noisy(np.concatenate(below)):
+        return
+    enough = {
+        name: GONE_ON * float(np.ptp(_all(runs, name)))
+        for name in FOLLOWED
+        if any(run.has(name) for run in runs)
+    }
+    if any(_goes_on(run, end, enough) for _, run in read):
+        reason = f"at the ceiling of the channel, {PRESSURE.shown(end)}"
+        for index, run in read:
+            yield Fault(index, "pressure", run.columns["pressure"] == end, reason)
+
+
+def _goes_on(run: Run, end: float, enough: Mapping[str, float]) -> bool:
+    return any(
+        stretch.value == end and stretch.travel(run, name) > least
+        for stretch in stretches(run.columns["pressure"], SHORTEST)
+        for name, least in enough.items()
+    )
 
 
 def _stays(run: Run, end: float, enough: float) -> bool:

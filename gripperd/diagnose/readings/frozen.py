@@ -61,12 +61,12 @@ def _noise_stops(values: Array) -> Iterator[Stretch]:
     outside = values.copy()
     for stretch in long:
         outside[stretch.rows] = np.nan
-    if _never_repeats(outside):
+    if noisy(outside):
         yield from long
 
 
-def _never_repeats(values: Array) -> bool:
-    """Whether what is left of a column has noise well above its resolution."""
+def noisy(values: Array) -> bool:
+    """Whether what is known of a column has noise well above its resolution."""
     seen = values[np.isfinite(values)]
     if seen.size < FEWEST:
         return False

@@ -2,10 +2,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from gripperd.diagnose.readings.fault import Check, Mask
-from gripperd.diagnose.readings.floors import ends_of_scale, slack
+from gripperd.diagnose.readings.floors import ceilings, ends_of_scale, slack
 from gripperd.diagnose.readings.recording import Run
+from gripperd.diagnose.readings.screening import screened
 from gripperd.model.track import Array
 from tests.diagnose.sweep import noise, pulled, run, triangle
 
@@ -86,6 +88,84 @@ def test_two_weights_lifted_are_neither_floor_nor_ceiling() -> None:
 def test_a_weight_that_pulls_with_one_force_is_a_reading() -> None:
     sweep = run(pressure=triangle(), force=np.full(400, 68.7))
     assert _rows(ends_of_scale, [sweep]) == {}
+
+
+def _capped(step: float = 0.0, current: float = 20e-3) -> Run:
+    """A transmitter of up to 400 kPa on a regulator that gives up to 500."""
+    pressure = triangle() + noise(400, 1.5e3)
+    if step:
+        pressure = np.round(pressure / step) * step
+    command = np.minimum(4e-3 + 16e-3 * triangle() / 500e3, current)
+    return run(pressure=np.minimum(pressure, 400e3), current=command)
+
+
+def test_a_pressure_at_the_ceiling_of_its_channel_is_censored() -> None:
+    capped = _capped()
+    (rows,) = _rows(ceilings, [capped]).values()
+    assert (rows == (capped.columns["pressure"] == 400e3)).all()
+    assert rows.sum() > 80
+
+
+def test_a_pressure_that_is_asked_to_stay_is_no_ceiling() -> None:
+    # 400 kPa is what 16.8 mA ask for.
+    assert _rows(ceilings, [_capped(current=16.8e-3)]) == {}
+
+
+def test_of_a_coarse_converter_nobody_can_tell_its_ceiling_from_a_supply() -> None:
+    assert _rows(ceilings, [_capped(step=8e3)]) == {}
+
+
+def test_screening_looks_for_ceilings() -> None:
+    (believed,), rejected = screened([_capped()])
+    assert np.isnan(believed.columns["pressure"]).sum() > 80
+    assert {entry.reason for entry in rejected} == {
+        "at the ceiling of the channel, 400 kPa"
+    }
+
+
+def test_the_ceiling_is_that_of_all_runs() -> None:
+    low = run(
+        "low",
+        pressure=triangle(high=390e3) + noise(400, 1.5e3, 5),
+        current=4e-3 + 16e-3 * triangle(high=390e3) / 500e3,
+    )
+    rows = _rows(ceilings, [low, _capped()])
+    # Of the lower sweep a few noisy readings may have been cut.
+    assert rows[1].sum() > 80
+    assert rows.get(0, np.zeros(1)).sum() < 5
+
+
+@pytest.mark.parametrize(
+    "pressure",
+    [
+        pytest.param(np.full(400, 300e3), id="an isobar without noise"),
+        pytest.param(np.minimum(triangle(), 400e3), id="a transmitter without noise"),
+        pytest.param(
+            np.round((np.minimum(triangle(), 400e3) + noise(400, 30.0)) / 250) * 250,
+            id="noise under the resolution",
+        ),
+    ],
+)
+def test_of_a_channel_without_noise_nobody_can_tell_its_ceiling(
+    pressure: Array,
+) -> None:
+    current = 4e-3 + 16e-3 * triangle() / 500e3
+    assert _rows(ceilings, [run(pressure=pressure, current=current)]) == {}
+
+
+def test_what_creeps_at_the_highest_pressure_is_no_ceiling() -> None:
+    capped = _capped(current=16.8e-3)
+    creeping = np.where(capped.columns["pressure"] == 400e3, 1.0, 0.0)
+    force = 1000.0 * triangle() / 500e3
+    held = np.minimum(force, 800.0) + 0.04 * np.cumsum(creeping) + noise(400, 0.3, 9)
+    told = replace(capped, columns={**capped.columns, "force": held})
+    assert _rows(ceilings, [told]) == {}
+
+
+def test_a_supply_that_gives_no_more_gives_it_with_its_noise() -> None:
+    supply = np.minimum(triangle(), 400e3) + noise(400, 1.5e3)
+    sweep = run(pressure=supply, current=4e-3 + 16e-3 * triangle() / 500e3)
+    assert _rows(ceilings, [sweep]) == {}
 
 
 def test_noise_around_the_least_force_is_no_floor() -> None:
