@@ -1,9 +1,6 @@
 """Inputs without their noise: a local linear trend, as stiff as the noise allows.
 
-References
-----------
-.. [1] J. Durbin, S. J. Koopman, "Time Series Analysis by State Space Methods", 2nd
-       ed., Oxford, 2012, section 3.2.1 (local linear trend) and 4.4 (smoother).
+Laid by :mod:`gripperd.diagnose.noise.trend`.
 """
 
 from collections.abc import Sequence
@@ -12,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gripperd.diagnose.noise.trend import RARE, cheapest, filtered, smoothed
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
@@ -19,8 +17,12 @@ STIFFNESSES = 10.0 ** np.arange(-8.0, 5.0)
 """Spectral densities of the slope tried, in units of ``noise² / s³``."""
 LEAP = 5.0
 """Standard deviations from what was foreseen at which a column may have leapt. [-]"""
-RARE = 5.0
-"""What a leap costs: there is none in 149 samples of 150. [nat]"""
+FASTER = 10.0
+"""Times the median rate with which a column that may leap begins at most. [-]"""
+UNKNOWN = 1e3
+"""Rate with which any other may begin. [1 / s, over the noise]"""
+CORNER = RARE
+"""What it costs to be stiffer or suppler from a sample on: as much. [nat]"""
 SELDOM = 0.05
 """Share of leaps above which a column does not leap, it is quieter than told. [-]"""
 
@@ -47,6 +49,8 @@ def smooth(
     variance: float,
     supple: float = 1.0,
     leap: float = np.inf,
+    *,
+    bends: bool = False,
 ) -> Smooth:
     """Take the noise off one column of one run.
 
@@ -63,6 +67,9 @@ def smooth(
         How much less stiff it shall be, so that corners stay sharp.
     leap
         Standard deviations from which it may leap, and be as stiff on either side.
+    bends
+        Whether it may be stiffer in some places than in others: between the corners of
+        a staircase than at them.
     """
     if variance <= 0 or column.size < 3 or not np.isfinite(column).any():
         rate = np.gradient(column, time) if column.size > 1 else np.zeros_like(column)
@@ -70,19 +77,41 @@ def smooth(
     scale = np.sqrt(variance)
     scaled = (column - np.nanmean(column)) / scale
     step = np.diff(time, prepend=time[0])
-    likelihoods = [compiled(_filter)(scaled, step, q, leap)[0] for q in STIFFNESSES]
-    best = STIFFNESSES[int(np.argmax(likelihoods))] * supple
-    _, states, spreads, leaps = compiled(_filter)(scaled, step, best, leap)
-    level, slope = compiled(_smoother)(states, spreads, step, best, leaps)
+    fast = UNKNOWN if np.isinf(leap) else _usual_rate(scaled, step)
+    tried = [
+        compiled(filtered)(scaled, step, np.full(step.size, one), leap, fast)[0]
+        for one in STIFFNESSES
+    ]
+    densities = np.stack(tried)
+    path: NDArray[np.int64] = (
+        compiled(cheapest)(densities, CORNER)
+        if bends
+        else np.full(step.size, np.argmax(densities.sum(1)))
+    )
+    stiffness = STIFFNESSES[path]
+    density = compiled(filtered)(scaled, step, stiffness, leap, fast)[0]
+    likelihood = density.sum() - CORNER * np.count_nonzero(np.diff(path))
+    stiffness *= supple
+    _, states, spreads, leaps = compiled(filtered)(scaled, step, stiffness, leap, fast)
+    level, slope = compiled(smoothed)(states, spreads, step, stiffness, leaps)
     rows = _rows(leaps > 0)
     return Smooth(
         level * scale + np.nanmean(column),
         _with_travel(slope, level, time, rows) * scale,
-        max(likelihoods) if np.mean(leaps > 0) < SELDOM else -np.inf,
+        float(likelihood) if np.mean(leaps > 0) < SELDOM else -np.inf,
         variance,
         float(np.sqrt(np.median(spreads[:, 0]))) * float(scale),
         rows,
     )
+
+
+def _usual_rate(scaled: Array, step: Array) -> float:
+    """How fast a column may begin: what leaps at once would begin with any slope."""
+    known = np.isfinite(scaled)
+    if known.sum() < 2:
+        return UNKNOWN
+    rates = np.diff(scaled[known]) / np.diff(np.cumsum(step)[known])
+    return FASTER * float(np.median(np.abs(rates))) or UNKNOWN
 
 
 def _with_travel(
@@ -100,72 +129,3 @@ def _with_travel(
 def _rows(found: NDArray[np.bool_]) -> tuple[slice, ...]:
     ends = np.flatnonzero(np.diff(found, prepend=False, append=False))
     return tuple(slice(*pair) for pair in ends.reshape(-1, 2).tolist())
-
-
-def _filter(
-    column: Array, step: Array, q: float, leap: float
-) -> tuple[float, Array, Array, Array]:
-    """Kalman filter: log likelihood, filtered states (n, 2), covariances (n, 3).
-
-    And what leaps added to the variance of the level, (n,).
-    """
-    n = column.size
-    states = np.empty((n, 2))
-    spreads = np.empty((n, 3))
-    leaps = np.zeros(n)
-    level, slope = 0.0, 0.0
-    a, b, c = 1e6, 0.0, 1e6
-    likelihood = 0.0
-    for i in range(n):
-        dt = step[i]
-        level = level + dt * slope
-        a = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3
-        b = b + dt * c + q * dt * dt / 2
-        c = c + q * dt
-        if np.isfinite(column[i]):
-            innovation = column[i] - level
-            if i > 0 and innovation * innovation > leap * leap * (a + 1.0):
-                leaps[i] = innovation * innovation
-                likelihood -= RARE
-                a += leaps[i]
-            variance = a + 1.0
-            gain, drag = a / variance, b / variance
-            level += gain * innovation
-            slope += drag * innovation
-            c -= drag * b
-            b -= drag * a
-            a -= gain * a
-            likelihood -= 0.5 * (np.log(variance) + innovation * innovation / variance)
-        states[i, 0], states[i, 1] = level, slope
-        spreads[i, 0], spreads[i, 1], spreads[i, 2] = a, b, c
-    return likelihood, states, spreads, leaps
-
-
-def _smoother(
-    states: Array, spreads: Array, step: Array, q: float, leaps: Array
-) -> tuple[Array, Array]:
-    """Rauch-Tung-Striebel pass backwards: level and slope."""
-    n = step.size
-    level = states[:, 0].copy()
-    slope = states[:, 1].copy()
-    for i in range(n - 2, -1, -1):
-        dt = step[i + 1]
-        a, b, c = spreads[i, 0], spreads[i, 1], spreads[i, 2]
-        # Predicted covariance of the next state, and the gain P F' / predicted.
-        pa = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3 + leaps[i + 1]
-        pb = b + dt * c + q * dt * dt / 2
-        pc = c + q * dt
-        determinant = pa * pc - pb * pb
-        if determinant <= 0:
-            continue
-        fa, fb = a + dt * b, b
-        ga, gb = b + dt * c, c
-        k11 = (fa * pc - fb * pb) / determinant
-        k12 = (fb * pa - fa * pb) / determinant
-        k21 = (ga * pc - gb * pb) / determinant
-        k22 = (gb * pa - ga * pb) / determinant
-        ahead = level[i + 1] - (states[i, 0] + dt * states[i, 1])
-        bend = slope[i + 1] - states[i, 1]
-        level[i] = states[i, 0] + k11 * ahead + k12 * bend
-        slope[i] = states[i, 1] + k21 * ahead + k22 * bend
-    return level, slope

@@ -50,7 +50,9 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(sweep, found["pressure"], noises)
     elif "pressure" in found:
-        found["pressure"] = _leaping(sweep, "pressure", found["pressure"])
+        found["pressure"] = _bending(
+            sweep, _leaping(sweep, "pressure", found["pressure"])
+        )
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -93,7 +95,19 @@ def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
     """
     column, time = sweep.columns[name], sweep.columns["time"]
     leapt = smooth(time, column, plain.variance, leap=LEAP)
-    return leapt if leapt.likelihood > plain.likelihood else plain
+    likelier = leapt.likelihood > plain.likelihood
+    return leapt if leapt.leapt and likelier else plain
+
+
+def _bending(sweep: Run, plain: Smooth) -> Smooth:
+    """Pressure that may be stiff between corners and supple at them, if likelier.
+
+    What is cut off a corner of a staircase is missing in the force as well, many times
+    its noise, and looks as if one of the two came late.
+    """
+    column, time = sweep.columns["pressure"], sweep.columns["time"]
+    bent = smooth(time, column, plain.variance, bends=True)
+    return bent if bent.likelihood > plain.likelihood else plain
 
 
 def _unswung(sweep: Run, plain: Smooth) -> Smooth:

@@ -1,8 +1,11 @@
+from itertools import pairwise, product
+
 import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
 from gripperd.diagnose.noise.smoothing import STIFFNESSES, smooth
+from gripperd.diagnose.noise.trend import cheapest
 from gripperd.model.track import Array
 from tests.diagnose.sweep import noise
 
@@ -103,6 +106,19 @@ def test_it_tells_which_samples_in_a_row_leapt() -> None:
     assert smooth(time, stairs + noise, 1.0, leap=5.0).leapt == (slice(50, 53),)
 
 
+def test_a_column_may_leap_from_its_first_sample() -> None:
+    column = np.where(TIME[0] < TIME, 100.0, 0.0) + noise(60, 1.0)
+    known = smooth(TIME, column, 1.0, leap=5.0)
+    assert known.leapt == (slice(1, 2),)
+    np.testing.assert_allclose(known.value[1:], 100.0, atol=1.5)
+
+
+def test_a_column_of_one_reading_has_no_usual_rate() -> None:
+    column = np.full(60, np.nan)
+    column[7] = 3.0
+    np.testing.assert_allclose(smooth(TIME, column, 1.0, leap=5.0).value, 3.0)
+
+
 def test_leaps_in_a_row_are_a_way_at_a_rate() -> None:
     time = np.arange(0.0, 40.0, 0.1)
     way = 300.0 * np.clip(time - 20.0, 0.0, 1.0)
@@ -121,3 +137,38 @@ def test_a_reading_that_leaps_up_and_back_has_no_rate() -> None:
     leaping = smooth(time, noise + wrong, 1.0, leap=5.0)
     assert leaping.leapt
     assert np.abs(leaping.rate).max() < 5.0
+
+
+def test_a_trend_that_may_bend_rests_between_the_corners_of_a_staircase() -> None:
+    time = np.arange(0.0, 110.0, 0.2)
+    levels = [0, 80, 160, 240, 320, 400, 320, 240, 160, 80]
+    # Each of them for 10 s, and 1 s on the way to the next.
+    ends = np.arange(10) * 11.0
+    knots = np.column_stack([ends, ends + 10]).ravel()
+    truth = np.interp(time, knots, np.repeat(levels, 2))
+    column = truth + noise(time.size, 2.0)
+    plain, bent = (smooth(time, column, 4.0, bends=one) for one in (False, True))
+    assert bent.likelihood > plain.likelihood + 50
+    flat = (time % 11 > 0.5) & (time % 11 < 9.5)
+    cut, off = ((one.value - truth)[flat].std() for one in (plain, bent))
+    assert off < 0.7 * cut
+    assert off < 0.5 * 2.0
+
+
+def test_what_does_not_bend_is_as_stiff_everywhere() -> None:
+    column = 40.0 * np.sin(TIME) + noise(60, 2.0)
+    plain, bent = (smooth(TIME, column, 4.0, bends=one) for one in (False, True))
+    assert bent.likelihood == plain.likelihood
+    np.testing.assert_array_equal(bent.value, plain.value)
+
+
+@pytest.mark.parametrize("cost", [0.0, 0.7, 2.0, 9.0])
+def test_the_cheapest_path_is_the_best_of_all(cost: float) -> None:
+    densities = np.random.default_rng(5).normal(0.0, 1.0, (3, 7))
+
+    def worth(path: tuple[int, ...]) -> float:
+        changes = sum(a != b for a, b in pairwise(path))
+        return float(densities[path, range(7)].sum()) - cost * changes
+
+    best = max(worth(path) for path in product(range(3), repeat=7))
+    assert worth(tuple(cheapest(densities, cost).tolist())) == pytest.approx(best)

@@ -53,6 +53,17 @@ def test_a_staircase_without_a_command_has_no_noise_in_its_rests() -> None:
     assert np.std((course.level("pressure") - true)[rests]) < 0.3 * 2e3
 
 
+def test_a_staircase_of_ramps_without_a_command_rests_between_its_corners() -> None:
+    # Each rest of 6 s, and 1 s on the way to the next, ten samples a second.
+    ends = np.arange(9) * 70
+    knots = np.column_stack([ends, ends + 60]).ravel()
+    levels = np.repeat([0.0, 150e3, 300e3, 450e3, 500e3, 450e3, 300e3, 150e3, 0.0], 2)
+    true = np.interp(np.arange(620), knots, levels)
+    (course,) = cut(run(pressure=true + noise(620, 2e3)))
+    rests = np.abs(np.arange(620) % 70 - 30) < 25
+    assert np.std((course.level("pressure") - true)[rests]) < 0.35 * 2e3
+
+
 def test_what_is_quieter_than_told_does_not_leap() -> None:
     time = np.linspace(0.0, 39.9, 400)
     column = 300e3 + 200e3 * np.sin(time)
