@@ -29,6 +29,10 @@ TAIL = 0.25
 """Part of a sweep that is left out then. [-]"""
 FEW_JAWS = 3
 """With fewer sweeps of the jaws none of them can be spared."""
+PLACES = ("current", "pressure", "contraction", "grip")
+"""Inputs that say where a sweep goes."""
+CONDITIONS = (*PLACES, "temperature")
+"""All inputs. No two sweeps of a day are equally warm: this may be asked too much."""
 MARGIN = 0.02
 """Share of a range by which a sweep may go further than all others. [-]"""
 FASTER = 1.5
@@ -81,11 +85,13 @@ def _spared(problem: Problem) -> set[int]:
     top = max(
         float(np.nanmax(course.level("pressure"), initial=0.0)) for course in courses
     )
-    inner = [
-        index
-        for index in within(courses)
-        if index > 0 and index in shown and not _still(courses[index], top)
-    ] or [index for index in shown if index > 0]
+    later = [index for index in shown if index > 0]
+    moved = [index for index in later if not _still(courses[index], top)]
+    inside = (set(within(courses, columns)) for columns in (CONDITIONS, PLACES))
+    inner = next(
+        (found for one in inside if (found := [i for i in moved if i in one])),
+        moved or later,
+    )
     grasps = [index for index in shown if _gripped(courses[index])]
     # One grasp at most: the constants of the jaws are known from the others alone.
     spare = [index for index in inner if index in grasps][-1:]
@@ -154,13 +160,13 @@ def _still(course: Course, top: float) -> bool:
     return bool(high - low <= HELD * top)
 
 
-def within(courses: Sequence[Course]) -> list[int]:
-    """Places of the sweeps that others reach as far as, in every input.
+def within(courses: Sequence[Course], columns: Sequence[str] = CONDITIONS) -> list[int]:
+    """Places of the sweeps that others reach as far as, in some inputs.
 
     What the jaws do grows with the grip, so that it is one.
     """
     covered = np.ones(len(courses), dtype=bool)
-    for name in ("current", "pressure", "contraction", "temperature", "grip"):
+    for name in columns:
         levels = [course.level(name) for course in courses]
         known = np.flatnonzero([np.isfinite(level).any() for level in levels])
         low = np.array([np.nanmin(levels[place]) for place in known])

@@ -93,6 +93,30 @@ def test_a_sweep_that_goes_further_than_all_others_stays(blank: Problem) -> None
     assert far.run not in split(replace(blank, courses=courses)).runs
 
 
+def _held(course: Course) -> Course:
+    known = course.smooth["pressure"]
+    still = known._replace(value=np.full(len(course), 300e3))
+    return replace(course, run="held", smooth={**course.smooth, "pressure": still})
+
+
+def test_though_none_is_as_warm_as_others_no_hold_is_spared(blank: Problem) -> None:
+    named = {course.run: course for course in blank.courses}
+    named["held"] = _held(named["b2"])
+    warmth = {"a": 22.0, "b": 30.0, "held": 22.0, "c": 15.0, "d": 22.0}
+    courses = tuple(
+        replace(
+            named[name],
+            measured={
+                **named[name].measured, "temperature": np.full(len(named[name]), warm)
+            },
+        )
+        for name, warm in warmth.items()
+    )  # fmt: skip
+    # That along d goes furthest; b and c lie between lengths that others show.
+    (spared,) = split(replace(blank, courses=courses)).runs
+    assert spared in {"b", "c"}
+
+
 def _faster(problem: Problem, names: set[str], times: float) -> Problem:
     """The same, had some sweeps travelled so many times as fast."""
 
