@@ -31,6 +31,9 @@ of good pressure transmitters. [-]"""
 PRESSED = 5.0
 """Standard deviations of its noise from which a grip is one. [-]"""
 
+DRIVING = 0.1
+"""Share of a way of pressure that lies in its last quarter, if it still goes on. [-]"""
+
 LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
 
@@ -48,7 +51,7 @@ def usable(course: Course, signal: Signal) -> Mask:
     measured = course.column(signal.value)
     good = np.isfinite(measured)
     for name in INPUTS[signal]:
-        good &= np.isfinite(course.level(name))
+        good &= np.isfinite(course.level(name)) & ~_bridged(course, name)
     if signal is Signal.GRIP:
         # Without contact the jaws are moved by the muscle alone and press on nothing.
         good &= (measured > PRESSED * course.hush("grip")) & np.isfinite(
@@ -63,6 +66,15 @@ def usable(course: Course, signal: Signal) -> Mask:
     if sweeps and signal is Signal.FORCE:
         good &= ~_stuck(course) & ~_late(course)
     return good
+
+
+def _bridged(course: Course, name: str) -> Mask:
+    """Samples amid readings that are missing in a row: what was there is a guess."""
+    gone = ~np.isfinite(course.column(name))
+    ends = np.flatnonzero(np.diff(gone, prepend=False, append=False))
+    for start, end in ends.reshape(-1, 2).tolist():
+        gone[start:end] = end - start > NEIGHBOURS
+    return gone & np.isfinite(course.level(name))
 
 
 def _missed(course: Course, name: str) -> Mask:
@@ -144,7 +156,10 @@ def _late(course: Course) -> Mask:
     """Samples in which a free muscle sticks: its pressure turned, and later it follows.
 
     What a machine moves follows no pressure. What does lies still until its friction
-    has turned round, and that lies anywhere between the two directions until then.
+    has turned round, and that lies anywhere between the two directions until then. So
+    it does where a sweep begins: nobody knows how the muscle came there. And so it does
+    where its pressure turns again before it has gone as far as the muscle needed to
+    follow any other time.
     """
     late = np.zeros(len(course), dtype=bool)
     pressure, way = course.level("pressure"), course.level("contraction")
@@ -153,12 +168,31 @@ def _late(course: Course) -> Mask:
     # Of its height, not of its range: what is left of an isobar turns nothing.
     sign = travel(pressure, STUCK * float(np.max(np.abs(pressure))))
     followed = _followed(course)
-    for turn, after in _legs(sign, 0, len(course)):
-        gone = sign[turn] * (way[turn:after] - way[turn])
+    turns = [0, *(turn for turn, _ in _legs(sign, 0, len(course))), len(course)]
+    turned, never = [], []
+    for turn, after in pairwise(turns):
+        gone = sign[after - 1] * (way[turn:after] - way[turn])
         moved = np.flatnonzero(np.abs(gone) > followed)
-        if moved.size and gone[moved[0]] > 0:
+        if not moved.size:
+            never.append(slice(turn, after))
+        elif gone[moved[0]] > 0 and (turn or _drives(pressure[: moved[0] + 1])):
             late[turn : turn + moved[0]] = True
+            if turn:
+                turned.append(abs(pressure[turn + moved[0]] - pressure[turn]))
+    for leg in never if turned else ():
+        late[leg] = np.abs(pressure[leg] - pressure[leg.start]) < min(turned)
     return _widened(late, 2)
+
+
+def _drives(pressure: Array) -> bool:
+    """Whether a pressure goes on to the end of a stretch: what moves then follows it.
+
+    What moves when it has long stood still is moved by a machine.
+    """
+    whole, last = (
+        np.abs(pressure[-1] - pressure[at]) for at in (0, -pressure.size // 4)
+    )
+    return bool(last > DRIVING * whole)
 
 
 def _followed(course: Course) -> float:

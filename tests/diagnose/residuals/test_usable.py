@@ -109,6 +109,89 @@ def test_a_free_muscle_sticks_until_it_follows_a_pressure_that_has_turned(
 
 
 @pytest.mark.parametrize(
+    ("again", "counts"),
+    [
+        # 100 kPa turned its friction round at first.
+        pytest.param(60e3, False, id="it sticks"),
+        pytest.param(240e3, True, id="a machine holds it"),
+    ],
+)
+def test_a_free_muscle_sticks_though_the_pressure_turns_again_before_it_follows(
+    again: float, *, counts: bool
+) -> None:
+    sample = np.arange(601)
+    knots = [0, 200, 300, 400, 500, 600]
+    low = 300e3
+    pressure = np.interp(sample, knots, [100e3, 500e3, low, low + again, low, 100e3])
+    ways = [0, 0.1, 0.1, 0.06, 0.06, 0.06, 0.0]
+    way = np.interp(sample, [0, 200, 250, 300, 500, 510, 600], ways)
+    told = run(
+        pressure=pressure + noise(601, 300.0),
+        contraction=way + noise(601, 1e-5, 2),
+        force=1e-3 * pressure + noise(601, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert good[20:195].all()
+    assert not good[310:340].any()
+    assert (good[385:395] == counts).all()
+
+
+@pytest.mark.parametrize(
+    ("to", "counts"),
+    [
+        pytest.param(0.1, False, id="it follows"),
+        pytest.param(-0.1, True, id="a machine pulls it out"),
+        pytest.param(0.0, True, id="it is held"),
+    ],
+)
+def test_where_a_sweep_begins_nobody_knows_how_a_free_muscle_sticks(
+    to: float, *, counts: bool
+) -> None:
+    sample = np.arange(401)
+    pressure = np.linspace(100e3, 500e3, 401)
+    told = run(
+        pressure=pressure + noise(401, 300.0),
+        contraction=np.interp(sample, [0, 100, 400], [0, 0, to]) + noise(401, 1e-5, 2),
+        force=1e-3 * pressure + noise(401, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert (good[20:90] == counts).all()
+    # 1.5e-3 of contraction are gone after 5 samples.
+    assert good[115:390].all()
+
+
+def test_what_moves_when_the_pressure_has_long_stood_still_a_machine_moves() -> None:
+    sample = np.arange(601)
+    pressure = np.interp(sample, [0, 100, 600], [50e3, 500e3, 500e3])
+    told = run(
+        pressure=pressure + noise(601, 300.0),
+        contraction=np.interp(sample, [0, 400, 600], [0, 0, 0.1]) + noise(601, 1e-5, 2),
+        force=1e-3 * pressure + noise(601, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert good[20:95].all()
+    assert good[110:380].all()
+
+
+@pytest.mark.parametrize(("missing", "counts"), [(3, True), (40, False)])
+def test_amid_missing_pressures_nobody_knows_what_there_was(
+    missing: int, *, counts: bool
+) -> None:
+    pressure = triangle(401) + noise(401, 300.0)
+    force = 1e-3 * pressure + noise(401, 1.0, 4)
+    pressure[100 : 100 + missing] = np.nan
+    told = run(pressure=pressure, contraction=np.full(401, 0.1), force=force)
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert (good[100 : 100 + missing] == counts).all()
+    assert good[20:98].all()
+    assert good[102 + missing : 190].all()
+
+
+@pytest.mark.parametrize(
     ("grip", "pressure"),
     [
         pytest.param(0.3, triangle(401), id="a grip cell that is off holds nothing"),
