@@ -48,6 +48,7 @@ from gripperd.diagnose.verdict.judged import bearing_signal, main_signal
 from gripperd.diagnose.verdict.jump import jump
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
+from gripperd.diagnose.verdict.refuted import refuted
 from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.diagnose.verdict.signature import signature
 from gripperd.diagnose.verdict.where import Finding, findings
@@ -206,7 +207,8 @@ def _told(
     bearing = bearing_signal(train, best, main, judged)
     gap = judged[bearing] if bearing else None
     spoilt = any(one.is_spoilt for one in judged.values())
-    if slip or spoilt or (gap and not gap.confirms(effects)):
+    against = slip or spoilt or refuted(parts, inside, found, best)
+    if against or (gap and not gap.confirms(effects)):
         is_open = bool(slip) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):

@@ -1,0 +1,65 @@
+"""Whether sweeps that were left out speak against a name.
+
+A name that is right foretells them better by what it changes there: by the sum D of the
+squares of that change, in noise, give or take twice the root of D. One that fitted
+what it was shown and no more makes them as much worse. What changes little there is
+neither borne out nor refuted.
+
+References
+----------
+.. [1] Q. H. Vuong, "Likelihood ratio tests for model selection and non-nested
+       hypotheses", Econometrica 57(2), 307-333, 1989.
+"""
+
+from dataclasses import replace
+
+from gripperd.diagnose.residuals.holdout import Split
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.rested import with_own_sign
+
+TELLING = 20.0
+"""Squares of the noise by which a name changes what was left out, from which that can
+speak: four standard deviations of what noise makes of it. [-]"""
+AGAINST = 0.25
+"""Share of them by which it is worse with the name. On two rigs nobody here had seen 1
+of 201 right names made it so, and 18 of 56 that were wrong. [-]"""
+
+
+def refuted(
+    parts: Split, inside: Problem, found: Found, best: Contest
+) -> tuple[str, ...]:
+    """Names that what was left out speaks against.
+
+    Parameters
+    ----------
+    parts
+        What was searched, and what was not.
+    inside
+        Of the latter what lies within the former.
+    found, best
+        The search and its outcome.
+    """
+    # Misfit that no explanation reaches is noise here as it was in the search.
+    test = replace(inside, noises=found.problem.noises)
+    told = with_own_sign(parts, best.best.fit.point)
+    names = []
+    for candidate, place in zip(best.best.candidates, best.places, strict=True):
+        without = with_own_sign(parts, place.without.fit.point)
+        changed, gained = _compared(test, without, told)
+        if changed > TELLING and gained < -AGAINST * changed:
+            names.append(candidate.name)
+    return tuple(names)
+
+
+def _compared(test: Problem, without: Point, told: Point) -> tuple[float, float]:
+    """Sum of squares of the change, and by how much less is left with it. [-]."""
+    changed, gained = 0.0, 0.0
+    pairs = zip(test.residuals(without), test.residuals(told), strict=True)
+    for index, pair in enumerate(pairs):
+        before, after = test.white(pair, index).T
+        changed += float((before - after) @ (before - after))
+        gained += float(before @ before - after @ after)
+    return changed, gained

@@ -1,0 +1,62 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.residuals.holdout import split
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.rivalry import Contest, Place
+from gripperd.diagnose.verdict.refuted import refuted
+from gripperd.effects.threshold_pressure import ThresholdPressure
+
+
+@pytest.fixture
+def blank_told(blank: Problem, told: Diagnosis) -> Contest:
+    """A threshold that is told of sweeps in which nothing is hidden."""
+    null = polished(split(blank).train, Point(np.zeros(len(blank.constants))))
+    (place,) = told.contest.places
+    without = replace(place.without, fit=null)
+    point = replace(null.point, effects=(ThresholdPressure(pressure=25e3),))
+    best = replace(told.contest.best, fit=replace(null, point=point))
+    return Contest(best, (Place(without),))
+
+
+def test_sweeps_in_which_it_acts_do_not_speak_against_a_name(told: Diagnosis) -> None:
+    parts = told.split
+    assert refuted(parts, parts.test, told.found, told.contest) == ()
+
+
+def test_sweeps_in_which_it_does_not_act_do(
+    blank: Problem, told: Diagnosis, blank_told: Contest
+) -> None:
+    parts = split(blank)
+    names = refuted(parts, parts.test, told.found, blank_told)
+    assert names == ("threshold_pressure",)
+
+
+def test_what_it_hardly_changes_says_nothing(
+    blank: Problem, told: Diagnosis, blank_told: Contest
+) -> None:
+    best = blank_told.best
+    faint = replace(best.fit.point, effects=(ThresholdPressure(pressure=0.3e3),))
+    contest = Contest(
+        replace(best, fit=replace(best.fit, point=faint)), blank_told.places
+    )
+    parts = split(blank)
+    assert refuted(parts, parts.test, told.found, contest) == ()
+
+
+def test_misfit_that_nothing_reaches_is_noise_to_it(
+    blank: Problem, told: Diagnosis, blank_told: Contest
+) -> None:
+    problem = told.found.problem
+    loud = {
+        signal: replace(noise, std=100 * noise.std, drift=100 * noise.drift)
+        for signal, noise in problem.noises.items()
+    }
+    hot = replace(told.found, problem=replace(problem, noises=loud))
+    parts = split(blank)
+    assert refuted(parts, parts.test, hot, blank_told) == ()
