@@ -83,6 +83,35 @@ async def test_a_line_that_was_at_rest_still_minds_the_time() -> None:
             await asyncio.wait_for(reply, SOON)
 
 
+async def test_a_stall_of_ours_is_no_silence_of_the_peer() -> None:
+    clock = Clock()
+    line = DeadEnd(clock)
+    reply = line.send("first", b"")
+    clock.time = 10 * TIMEOUT
+    await clock.is_looked_at()
+    line.hear(b"yes.")
+    assert await reply == b"yes."
+
+
+async def test_a_stall_excuses_a_peer_once() -> None:
+    clock = Clock()
+    line = DeadEnd(clock)
+    reply = line.send("first", b"")
+    clock.time = 10 * TIMEOUT
+    await clock.is_looked_at()
+    assert not reply.done()
+    clock.time = 20 * TIMEOUT
+    with pytest.raises(ReplyTimeout, match="first"):
+        await asyncio.wait_for(reply, SOON)
+    second = line.send("second", b"")
+    clock.time = 30 * TIMEOUT
+    await clock.is_looked_at()
+    assert not second.done()
+    clock.time = 31 * TIMEOUT
+    with pytest.raises(ReplyTimeout, match="second"):
+        await asyncio.wait_for(second, SOON)
+
+
 async def test_a_request_that_was_forgotten_is_not_told_of_its_time() -> None:
     clock = Clock()
     line = DeadEnd(clock)
