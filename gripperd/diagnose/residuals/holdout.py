@@ -15,7 +15,7 @@ import numpy as np
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.usable import PRESSED
+from gripperd.diagnose.residuals.sticking import PRESSED
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 

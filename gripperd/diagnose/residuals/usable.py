@@ -1,22 +1,16 @@
 """Samples of a sweep that say something about a stage."""
 
-from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
-from scipy.ndimage import uniform_filter1d
+from scipy.ndimage import binary_dilation, uniform_filter1d
 
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.leap import leaps
-from gripperd.diagnose.readings.travel import (
-    STUCK,
-    leaning,
-    noticed,
-    reversal,
-    travel,
-)
+from gripperd.diagnose.readings.travel import leaning, noticed, reversal
 from gripperd.diagnose.residuals.stages import INPUTS
+from gripperd.diagnose.residuals.sticking import PRESSED, late, stuck
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -27,12 +21,6 @@ OFF = 3.0
 CORNER = 0.001
 """Share of the largest reading up to which a cut corner does not matter: the error
 of good pressure transmitters. [-]"""
-
-PRESSED = 5.0
-"""Standard deviations of its noise from which a grip is one. [-]"""
-
-DRIVING = 0.1
-"""Share of a way of pressure that lies in its last quarter, if it still goes on. [-]"""
 
 LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
@@ -64,7 +52,7 @@ def usable(course: Course, signal: Signal) -> Mask:
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
     if sweeps and signal is Signal.FORCE:
-        good &= ~_stuck(course) & ~_late(course)
+        good &= ~stuck(course) & ~late(course)
     return good
 
 
@@ -91,7 +79,7 @@ def _missed(course: Course, name: str) -> Mask:
     mean = uniform_filter1d(off, NEIGHBOURS, mode="nearest")
     sure = OFF * (known.variance / NEIGHBOURS) ** 0.5
     least = CORNER * float(np.max(np.abs(known.value)))
-    return _widened(np.abs(mean) > max(sure, least), 2)
+    return binary_dilation(np.abs(mean) > max(sure, least), iterations=2)
 
 
 def _turning(sign: Array) -> Mask:
@@ -103,7 +91,7 @@ def _turning(sign: Array) -> Mask:
     after = np.minimum(np.searchsorted(loose, index), loose.size - 1)
     before = np.maximum(np.searchsorted(loose, index, side="right") - 1, 0)
     turning = np.sign(sign[loose[before]]) != np.sign(sign[loose[after]])
-    return _widened(turning | (index < loose[0]), 2)
+    return binary_dilation(turning | (index < loose[0]), iterations=2)
 
 
 def _reversals(course: Course) -> Mask:
@@ -113,7 +101,7 @@ def _reversals(course: Course) -> Mask:
     """
     sign, way = course.direction, course.level("contraction")
     turned = np.diff(sign, prepend=sign[0]) != 0
-    near = _widened(turned, 2)
+    near = binary_dilation(turned, iterations=2)
     if not turned.any():
         return near
     known = course.smooth["contraction"]
@@ -129,97 +117,10 @@ def _reversals(course: Course) -> Mask:
     return near
 
 
-def _stuck(course: Course) -> Mask:
-    """Samples in which jaws hold on and do not follow a pressure that has turned.
-
-    The muscle goes by less than is measured, or sticks: until its contraction has
-    followed, its friction lies anywhere between the two directions.
-    """
-    stuck = np.zeros(len(course), dtype=bool)
-    grip, pressure = course.level("grip"), course.level("pressure")
-    if not (np.isfinite(grip).any() and np.isfinite(pressure).all()):
-        return stuck
-    grip = np.nan_to_num(grip - np.nanmin(grip))
-    holds = (grip > PRESSED * course.hush("grip")) & (grip > 0)
-    least = STUCK * float(np.ptp(pressure))
-    sign, way = travel(pressure, least), course.level("contraction")
-    followed = _followed(course)
-    ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
-    for start, end in ends.reshape(-1, 2).tolist():
-        for turn, after in _legs(sign, start, end):
-            gone = sign[turn] * (way[turn:after] - way[turn])
-            stuck[turn:after] = ~np.logical_or.accumulate(gone > followed)
-    return _widened(stuck, 2)
-
-
-def _late(course: Course) -> Mask:
-    """Samples in which a free muscle sticks: its pressure turned, and later it follows.
-
-    What a machine moves follows no pressure. What does lies still until its friction
-    has turned round, and that lies anywhere between the two directions until then. So
-    it does where a sweep begins: nobody knows how the muscle came there. And so it does
-    where its pressure turns again before it has gone as far as the muscle needed to
-    follow any other time.
-    """
-    late = np.zeros(len(course), dtype=bool)
-    pressure, way = course.level("pressure"), course.level("contraction")
-    if not np.isfinite(pressure).all():
-        return late
-    # Of its height, not of its range: what is left of an isobar turns nothing.
-    sign = travel(pressure, STUCK * float(np.max(np.abs(pressure))))
-    followed = _followed(course)
-    turns = [0, *(turn for turn, _ in _legs(sign, 0, len(course))), len(course)]
-    turned, never = [], []
-    for turn, after in pairwise(turns):
-        gone = sign[after - 1] * (way[turn:after] - way[turn])
-        moved = np.flatnonzero(np.abs(gone) > followed)
-        if not moved.size:
-            never.append(slice(turn, after))
-        elif gone[moved[0]] > 0 and (turn or _drives(pressure[: moved[0] + 1])):
-            late[turn : turn + moved[0]] = True
-            if turn:
-                turned.append(abs(pressure[turn + moved[0]] - pressure[turn]))
-    for leg in never if turned else ():
-        late[leg] = np.abs(pressure[leg] - pressure[leg.start]) < min(turned)
-    return _widened(late, 2)
-
-
-def _drives(pressure: Array) -> bool:
-    """Whether a pressure goes on to the end of a stretch: what moves then follows it.
-
-    What moves when it has long stood still is moved by a machine.
-    """
-    whole, last = (
-        np.abs(pressure[-1] - pressure[at]) for at in (0, -pressure.size // 4)
-    )
-    return bool(last > DRIVING * whole)
-
-
-def _followed(course: Course) -> float:
-    """Way of the contraction from which it has followed a pressure. [-]."""
-    known = course.smooth.get("contraction")
-    return reversal(known.spread if known else 0.0)
-
-
-def _legs(sign: Array, start: int, end: int) -> Iterable[tuple[int, int]]:
-    """Where a way turns between two samples, each with where its new leg ends."""
-    inside = sign[start:end]
-    turns = start + 1 + np.flatnonzero(inside[1:] * inside[:-1] < 0)
-    return pairwise([*turns.tolist(), end])
-
-
-def _widened(near: Mask, reach: int) -> Mask:
-    wide = near.copy()
-    for shift in range(1, reach + 1):
-        wide[shift:] |= near[:-shift]
-        wide[:-shift] |= near[shift:]
-    return wide
-
-
 def _transients(course: Course) -> Mask:
     """Samples next to a step of pressure: two sensors never see it at once."""
     pressure, current = course.level("pressure"), course.column("current")
     near = leaps(pressure, float(np.nanmax(np.abs(pressure))), course.step)
     if np.isfinite(current).all():
         near |= leaps(current, float(np.max(np.abs(current))), course.step)
-    return _widened(near, 2)
+    return binary_dilation(near, iterations=2)

@@ -104,8 +104,37 @@ def test_a_free_muscle_sticks_until_it_follows_a_pressure_that_has_turned(
     (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
     good = usable(course, Signal.FORCE)
     assert good[20:195].all()
-    assert (good[210:250] == counts).all()
+    # From 50 kPa on friction has turned round, even if nothing follows.
+    assert (good[228:250] == counts).all()
     assert good[280:390].all()
+
+
+@pytest.mark.parametrize(
+    ("sag", "follows", "counts"),
+    [
+        pytest.param(np.linspace(0.0, 40e3, 301), 0.0, False, id="it sticks"),
+        pytest.param(np.linspace(0.0, 40e3, 301), -0.1, True, id="it follows"),
+        pytest.param(np.linspace(0.0, 8e3, 301), 0.0, True, id="it swings"),
+        pytest.param(
+            np.append(np.linspace(0.0, 15e3, 11), np.full(290, 15e3)), 0.0, True,
+            id="an overshoot",
+        ),
+    ],
+)  # fmt: skip
+def test_a_free_muscle_sticks_while_its_pressure_sags(
+    sag: Array, follows: float, *, counts: bool
+) -> None:
+    pressure = np.append(np.linspace(50e3, 500e3, 100), 500e3 - sag)
+    way = np.append(np.linspace(0.0, 0.15, 100), 0.15 + follows * sag / 40e3)
+    told = run(
+        pressure=pressure + noise(401, 300.0),
+        contraction=way + noise(401, 1e-5, 2),
+        force=1e-3 * pressure + noise(401, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert good[20:90].all()
+    assert (good[180:390] == counts).all()
 
 
 @pytest.mark.parametrize(
@@ -160,6 +189,40 @@ def test_where_a_sweep_begins_nobody_knows_how_a_free_muscle_sticks(
     assert (good[20:90] == counts).all()
     # 1.5e-3 of contraction are gone after 5 samples.
     assert good[115:390].all()
+
+
+def test_a_free_muscle_sticks_while_its_pressure_stands_on_a_stair() -> None:
+    sample = np.arange(401)
+    knots = [0, 100, 120, 250, 270, 400]
+    pressure = np.interp(sample, knots, [50e3, 500e3, 400e3, 400e3, 200e3, 200e3])
+    way = np.interp(sample, [0, 100, 250, 270, 400], [0.0, 0.15, 0.15, 0.05, 0.05])
+    told = run(
+        pressure=pressure + noise(401, 300.0),
+        contraction=way + noise(401, 1e-5, 2),
+        force=1e-3 * pressure + noise(401, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert good[20:90].all()
+    assert not good[105:250].any()
+    assert good[280:390].all()
+
+
+def test_a_free_muscle_sticks_behind_a_step_it_does_not_follow() -> None:
+    sample = np.arange(401)
+    pressure = np.interp(sample, [0, 100, 200], [50e3, 500e3, 60e3])
+    pressure[300:] = 100e3
+    way = np.interp(sample, [0, 100, 115, 200], [0.0, 0.15, 0.15, 0.0])
+    told = run(
+        pressure=pressure + noise(401, 300.0),
+        contraction=way + noise(401, 1e-5, 2),
+        force=1e-3 * pressure + noise(401, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert good[20:90].all()
+    assert good[220:290].all()
+    assert not good[310:390].any()
 
 
 def test_what_moves_when_the_pressure_has_long_stood_still_a_machine_moves() -> None:
