@@ -68,7 +68,7 @@ class Cell:
             done = http.post(
                 "/grippers/g0/commands", json=body, headers={"Prefer": "wait=60"}
             ).json()
-        assert done["status"] == "succeeded", done
+        assert done["status"] == "succeeded", str(done)
         return float(done["result"]["force_N"])
 
 
@@ -172,7 +172,7 @@ def test_a_tare_survives_a_restart_and_is_told(tmp_path: Path) -> None:
                 json={"type": "tare"},
                 headers={"Prefer": "wait=60"},
             ).json()
-        assert done["status"] == "succeeded", done
+        assert done["status"] == "succeeded", str(done)
         before = tared.state()
         assert before["zero_N"] == done["result"]["zero_N"]
         assert before["tared_at"] is not None

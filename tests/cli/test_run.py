@@ -40,7 +40,7 @@ def hold_an_egg(daemon: Daemon) -> float:
         done = http.post(
             "/grippers/g0/commands", json=body, headers={"Prefer": "wait=60"}
         ).json()
-    assert done["status"] == "succeeded"
+    assert done["status"] == "succeeded", str(done)
     return float(done["result"]["force_N"])
 
 
