@@ -198,9 +198,7 @@ def slopes(
     here = coefficients(point, coordinates)
     count = point.shifts.size
     for index, coordinate in enumerate(coordinates):
-        step = 0.1 if coordinate.is_amplitude else 2 * SHAPE_STEP
-        if here[count + index] * coordinate.unit >= 0.98 * coordinate.high:
-            step = -step
+        step = _step(coordinate, here[count + index])
         vector = here.copy()
         vector[count + index] += step
         there = problem.explanation(_moved(problem, point, coordinates, vector))
@@ -210,6 +208,13 @@ def slopes(
     return np.concatenate(
         [_slopes(problem, columns, units, index) for index in range(len(problem.zeros))]
     )
+
+
+def _step(coordinate: Coordinate, here: float) -> float:
+    """Of a difference quotient, in units; both its ends lie within the limits."""
+    room = (coordinate.high - coordinate.low) / coordinate.unit
+    step = min(0.1 if coordinate.is_amplitude else 2 * SHAPE_STEP, room / 2)
+    return -step if (here + step) * coordinate.unit > coordinate.high else step
 
 
 def _slopes(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from gripperd.diagnose.fit.polish import Polished, polished
+from gripperd.diagnose.fit.polish import Coordinate, Polished, polished, slopes
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.constants import MADE, NUISANCE
 from gripperd.diagnose.residuals.explanation import Explanation
@@ -194,6 +194,23 @@ def test_a_lag_is_found_in_time() -> None:
     behind = effect.share * (effect.dead_time + effect.time)
     assert behind == pytest.approx(1.0, rel=0.15)
     assert late.signals == problem.signals
+
+
+@pytest.mark.parametrize("unit", [1.0, 15.0])
+def test_what_is_proportional_changes_alike_near_a_limit_and_far_from_it(
+    unit: float,
+) -> None:
+    problem = problem_of(_lagging(1.0), MODEL, {})
+    lag = ValveLag(share=1.0, time=0.5)
+    # From 0 to 1.5: a tenth of the larger unit leaves it at either end.
+    share = Coordinate("valve_lag", "share", unit, 0.0, 1.5, is_amplitude=True)
+    columns = [
+        slopes(problem, _start(problem, replace(lag, share=at)), [share])[:, -1]
+        for at in (0.1, 0.75, 1.45, 1.5)
+    ]
+    assert np.ptp(columns[0]) > 1.0
+    for column in columns[1:]:
+        assert column == pytest.approx(columns[0], abs=1e-6 * np.ptp(columns[0]))
 
 
 def _lagging(time: float) -> Recording:
