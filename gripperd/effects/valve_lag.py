@@ -5,6 +5,8 @@ References
 .. [1] E. Richer, Y. Hurmuzlu, "A high performance pneumatic force actuator system",
        J. Dyn. Sys., Meas., Control 122(3), 416-425, 2000: filling and exhaust differ,
        and a valve that is choked lets no more through, however far the pressure is off.
+.. [2] ISO 6358-1:2013: near the pressure behind it, an orifice lets through what grows
+       as the square root of the drop.
 """
 
 from dataclasses import dataclass
@@ -17,8 +19,8 @@ from gripperd.model.memory import KEPT, delay, lag
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
-CHOKED = 100e3
-"""Distance of a pressure from its command to which the choke refers. [Pa]"""
+FAR = 100e3
+"""Distance from the command at which orifice, choke and regulator are compared. [Pa]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +28,10 @@ class ValveLag(InValve):
     r"""A dead time, then a lag that fills and exhausts at its own pace.
 
     .. math:: p = p_0 + a (p_l - p_0), \quad
-        \tau \dot p_l = \frac{e}{1 + c |e|}, \quad e = p_0(t - T) - p_l
+        \tau \dot p_l = \frac{e}{1 - s + s (1 - c) \sqrt{|e|} + s c |e|}, \quad
+        e = p_0(t - T) - p_l \quad \text{in 100 kPa}
 
+    The regulator's own gain, an orifice and a choke hold the air up one after another.
     A spool that breaks loose and a tube hold the pressure back before it moves.
     """
 
@@ -44,13 +48,15 @@ class ValveLag(InValve):
     time: float = shape(
         unit="s", starts=(0.5, 0.05, 0.15, 1.5, 5.0), low=0.005, high=60.0
     )
-    """Time constant of filling. [s]"""
+    """Time constant of filling, 100 kPa away. [s]"""
     exhaust: float = shape(unit=None, starts=(1.0, 2.0), low=0.2, high=5.0)
     """Time constant of exhaust over that of filling. [-]"""
     dead_time: float = shape(unit="ms", starts=(0.0, 0.03), low=0.0, high=1.0)
     """Time before anything follows. [s]"""
-    choke: float = shape(unit=None, starts=(0.0,), low=0.0, high=50.0)
-    """One over the distance at which the rate is halved; 0: plain lag. [1/(100 kPa)]"""
+    throttle: float = shape(unit=None, starts=(0.0,), low=0.0, high=0.99)
+    """What orifice and choke hold up, 100 kPa away; the rest the regulator. [0..1]"""
+    choked: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
+    """The choke's share of that. [0..1]"""
 
     def rest(self) -> Array:
         """A lag that begins settled, then the past of a delay; shape (2, 1 + KEPT)."""
@@ -59,7 +65,10 @@ class ValveLag(InValve):
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pressure that has come so far. [Pa]."""
         late = delay(value, track.time, self.dead_time, memory[:, 1:])
-        exhaust = self.time * self.exhaust
-        choke = self.choke / CHOKED
-        late = lag(late, track.step, self.time, exhaust, memory[0, :1], choke)
+        own = 1 - self.throttle
+        rise = own * self.time
+        orifice = self.throttle * (1 - self.choked) / own / FAR**0.5
+        throttle = (orifice, self.throttle * self.choked / own / FAR)
+        held = memory[0, :1]
+        late = lag(late, track.step, rise, rise * self.exhaust, held, throttle)
         return value + self.share * (late - value)

@@ -40,12 +40,12 @@ def lag(
     rise: float,
     fall: float,
     state: Array,
-    choke: float = 0.0,
+    throttle: tuple[float, float] = (0.0, 0.0),
 ) -> Array:
     """First-order lag, exact for a signal that is constant between samples.
 
-    Choked, what follows at a distance ``e`` nears by ``e / (T (1 + c e))``: far away
-    no faster than ``1 / (T c)`` [3]_.
+    What follows at a distance ``e`` nears by ``e / (T (1 + o sqrt(e) + c e))``: through
+    an orifice as the square root, and choked no faster than ``1 / (T c)`` [3]_.
 
     Parameters
     ----------
@@ -57,10 +57,10 @@ def lag(
         Time constants while the signal is above and below what follows it. [s]
     state
         What has followed so far, shape ``(1,)``; it is moved on.
-    choke
-        One over the distance from which the rate is halved. [1 / any]
+    throttle
+        ``o`` of an orifice [1 / sqrt(any)] and ``c`` of a choke. [1 / any]
     """
-    return compiled(_lag)(signal, step, rise, fall, state, choke)
+    return compiled(_lag)(signal, step, (rise, fall), state, throttle)
 
 
 def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
@@ -141,9 +141,15 @@ def leaked(
 
 
 def _lag(
-    signal: Array, step: Array, rise: float, fall: float, state: Array, choke: float
+    signal: Array,
+    step: Array,
+    constants: tuple[float, float],
+    state: Array,
+    throttle: tuple[float, float],
 ) -> Array:
     out = np.empty_like(signal)
+    rise, fall = constants
+    orifice, choke = throttle
     last = state[0]
     for index in range(signal.size):
         goal = signal[index]
@@ -152,14 +158,16 @@ def _lag(
         constant = rise if goal > last else fall
         away = last - goal
         kept = np.exp(-step[index] / constant)
-        if choke > 0 and away != 0:
-            # log e + c e falls by t / T: Newton's steps come to it from above.
-            whole = np.log(abs(away)) + choke * abs(away) - step[index] / constant
-            found = min(np.log(abs(away)), whole)
+        if choke + orifice > 0 and away != 0:
+            # log e + 2 o sqrt(e) + c e falls by t / T: Newton comes to it from above.
+            far = np.log(abs(away))
+            slow, bent = orifice * np.exp(far / 2), choke * np.exp(far)
+            whole = far + 2 * slow + bent - step[index] / constant
+            found = min(far, whole)
             for _ in range(NEWTON):
-                bent = choke * np.exp(found)
-                found -= (found + bent - whole) / (1 + bent)
-            kept = np.exp(found) / abs(away)
+                slow, bent = orifice * np.exp(found / 2), choke * np.exp(found)
+                found -= (found + 2 * slow + bent - whole) / (1 + slow + bent)
+            kept = np.exp(found - far)
         last = goal + away * kept
         out[index] = last
     state[0] = last
