@@ -17,6 +17,7 @@ from gripperd.diagnose.search.answer import answered, answering
 from gripperd.diagnose.search.dwell import dwelling, misfit, stilled
 from gripperd.diagnose.search.finalists import leaders
 from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.preference import strained
 from gripperd.diagnose.search.price import LEAST_MORE, MUCH, is_fault
 from gripperd.diagnose.search.rivalry import SURE, Contest, Place, needed, removed
 from gripperd.model.effect import Signal
@@ -166,14 +167,17 @@ def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival
 def _accounts(kind: Aftermath, problem: Problem, here: Rival, larger: Rival) -> bool:
     """Whether the dwells tell a cause, and much of what they do is gone with it.
 
-    One that has but the levels to explain lets the dwells drift as before, or more.
+    One that has but the levels to explain lets the dwells drift as before, or more. One
+    that a limit of physics holds back stands for something else.
     """
     points = here.fit.point, larger.fit.point
     before, after = (misfit(problem, point, kind.signal) for point in points)
     if min(0.5 * (before - after), larger.evidence - here.evidence) <= LEAST_MORE:
         return False
     explained = kind.explained(problem, here.fit, larger.fit)
-    return explained and is_fault(problem, larger)
+    cause = larger.candidates[-1].name
+    sound = is_fault(problem, larger) and not strained(problem, larger, [cause])
+    return explained and sound
 
 
 def _takes_its_share(

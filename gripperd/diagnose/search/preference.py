@@ -1,6 +1,6 @@
 """Which of several explanations to believe when misfit, not noise, sets them apart."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -69,11 +69,12 @@ def at_edge(problem: Problem, rival: Rival) -> tuple[str, ...]:
     )
 
 
-def strained(problem: Problem, rival: Rival) -> bool:
-    """Whether an effect would be larger, did its limit let it."""
+def strained(problem: Problem, rival: Rival, among: Collection[str] = ()) -> bool:
+    """Whether an effect, of some or of all, would be larger, did its limit let it."""
     return any(
         _at_limit(problem, effect, name)
         for effect in rival.fit.point.effects
+        if not among or effect.name in among
         for name in amplitudes(effect)
     )
 
