@@ -30,7 +30,8 @@ class Creep(InMuscle):
               u = p \left[A(0) + l (A(h) - A(0))\right]
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when the bladder creeps under pressure alone. Once settled it adds nothing.
+    when the bladder creeps under pressure alone. Once settled it adds nothing. A record
+    that begins under pressure may begin settled, or as the pressure comes.
     """
 
     name: ClassVar[str] = "creep"
@@ -53,13 +54,16 @@ class Creep(InMuscle):
     """Share that is late by the next. [-]"""
     slow: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
     """Share that is late by the longest. [-]"""
-    time: float = shape(unit="s", starts=(2.0, 0.7, 5.0), low=0.2, high=60.0)
-    """Shortest time constant. [s]"""
+    time: float = shape(unit="s", starts=(2.0, 0.7, 5.0), low=0.2, high=12.0)
+    """Shortest time constant: rubber creeps from the first seconds on. [s]"""
     leverage: float = shape(unit=None, starts=(1.0, 0.0), low=-0.5, high=1.5)
     """How much of the loss of leverage with contraction the creep shares. [-]"""
+    fresh: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0, switches=True)
+    """Share of the pull that is new where a record begins: 1 after a rest vented,
+    0 where all has settled. [-]"""
 
     def rest(self) -> Array:
-        """Three lags that begin settled."""
+        """Three lags that have not begun."""
         return begin(3)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
@@ -68,6 +72,8 @@ class Creep(InMuscle):
         area = rest + self.leverage * (track.pull_area - rest)
         load = np.asarray(track.pressure * area)
         late = np.zeros_like(load)
+        if np.isnan(memory).any() and load.size:
+            memory[:] = (1 - self.fresh) * load[0]
         for index, share in enumerate((self.fast, self.medium, self.slow)):
             time = self.time * SPACING**index
             state = memory[index : index + 1]

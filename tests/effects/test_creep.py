@@ -1,0 +1,59 @@
+"""Creep of the rubber."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.effects.creep import Creep
+from gripperd.model import Muscle
+from gripperd.model.track import Array
+from tests.effects.tracks import track_of
+
+CREEP = Creep(fast=0.01, medium=0.02, slow=0.04, time=2.0)
+TIMES = np.array([2.0, 12.0, 72.0])
+SHARES = np.array([0.01, 0.02, 0.04])
+TIME = np.arange(0.0, 300.0, 0.5)
+
+
+def late(muscle: Muscle, effect: Creep, pressure: Array | float) -> Array:
+    """What has not come yet."""
+    step = np.diff(TIME, prepend=0.0)
+    track = track_of(muscle, time=TIME, step=step, pressure=pressure)
+    return -effect.along(np.zeros_like(TIME), track, effect.rest())
+
+
+def left_of(pull: float) -> Array:
+    """A generalised Maxwell element after a step, by its series of exponentials."""
+    found: Array = pull * np.exp(-TIME[:, None] / TIMES) @ SHARES
+    return found
+
+
+def test_after_a_step_it_comes_with_three_time_constants(muscle: Muscle) -> None:
+    pressure = np.where(TIME > 0, 400e3, 0.0)
+    pull = 400e3 * float(muscle.pull_area(0.0))
+    # Where the step lies between the first two samples, it was made at the second.
+    expected = left_of(pull)[1:]
+    assert late(muscle, CREEP, pressure)[1:] == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("fresh", [0.0, 0.3, 1.0])
+def test_a_record_under_pressure_begins_as_fresh_as_it_is(
+    muscle: Muscle, fresh: float
+) -> None:
+    pull = 400e3 * float(muscle.pull_area(0.0))
+    found = late(muscle, replace(CREEP, fresh=fresh), 400e3)
+    assert found == pytest.approx(fresh * left_of(pull), rel=1e-6, abs=1e-9)
+
+
+def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
+    effect = replace(CREEP, fresh=1.0)
+    pressure = 300e3 + 100e3 * np.sin(TIME / 20)
+    whole = late(muscle, effect, pressure)
+    memory = effect.rest()
+    for index, one in enumerate(pressure[:50]):
+        track = track_of(
+            muscle, time=TIME[index], step=0.5 if index else 0.0, pressure=float(one)
+        )
+        found = -effect.along(np.zeros(1), track, memory)
+        assert found == pytest.approx(whole[index])
