@@ -92,6 +92,19 @@ async def test_a_request_waits_for_three_and_a_half_characters_of_silence(
         assert time.monotonic() - answered < SOON
 
 
+async def test_a_silence_longer_than_a_time_out_is_waited_for_by_an_early_timer(
+    path: Path,
+) -> None:
+    async with over_rtu(path, silence=2 * PATIENCE) as (bus, far):
+        await bus.ask(read(0))
+        line, start = bus._line, time.monotonic()
+        assert line is not None
+        # The clock is slow, so that every timer rings early by it.
+        line._now = lambda: start + 0.6 * (time.monotonic() - start)
+        assert await bus.ask(read(0)) == (1000,)
+        assert far.asked[1].at - far.asked[0].at >= 2 * PATIENCE
+
+
 async def test_a_request_that_waits_for_silence_ends_when_the_adapter_is_unplugged(
     path: Path,
 ) -> None:
