@@ -184,14 +184,20 @@ def _whitened(problem: Problem, columns: Array) -> Array:
 def _covariances(
     problem: Problem, noise: Noise, some: NDArray[np.intp]
 ) -> tuple[Array, Array]:
-    """Of the noise, and the correlation of what wanders inside a sweep."""
-    sweep = np.repeat(np.arange(len(problem.times)), [t.size for t in problem.times])
-    time = np.concatenate(problem.times)
-    step = float(np.median(np.concatenate([np.diff(one) for one in problem.times])))
-    apart = np.abs(np.subtract.outer(time[some], time[some]))
-    same = np.equal.outer(sweep[some], sweep[some])
+    """Of the noise, and the correlation of what wanders inside a sweep.
+
+    Sweeps may be sampled at rates of their own. A power of the time apart, not rounded
+    to whole samples, is a covariance wherever they lie.
+    """
+    times = problem.times
+    sizes = [one.size for one in times]
+    sweep = np.repeat(np.arange(len(times)), sizes)[some]
+    step = np.repeat([float(np.median(np.diff(one))) for one in times], sizes)[some]
+    time = np.concatenate(times)[some]
+    apart = np.abs(np.subtract.outer(time, time))
+    same = np.equal.outer(sweep, sweep)
     wander = same * np.exp(-apart / noise.memory)
-    fast = same * noise.correlation ** np.round(apart / step)
+    fast = same * noise.correlation ** (apart / step)
     return noise.std**2 * fast + noise.drift**2 * wander, wander
 
 

@@ -21,6 +21,7 @@ from tests.diagnose.small import (
     MODEL,
     Hidden,
     Moment,
+    altered,
     nothing,
     pinned,
     recording,
@@ -99,6 +100,19 @@ def test_it_gives_what_the_model_lacks(bump: Offer) -> None:
         given = bump.correction.at(_inputs(bump, pressure, contraction))
         expected = _bump_at(np.array([pressure]), np.array([contraction]))
         assert given == pytest.approx(expected, abs=8.0)
+
+
+def test_sweeps_sampled_at_rates_of_their_own_are_learnt_from_together() -> None:
+    hasty = altered(
+        recording(_bump), ("b", "d", "e"), "time", lambda t: t[0] + (t - t[0]) / 5
+    )
+    problem = pinned(problem_of(hasty, MODEL, {}), "muscle.diameter")
+    loud = replace(problem.noises[Signal.FORCE], correlation=0.6)
+    problem = replace(problem, noises={Signal.FORCE: loud})
+    (offer,) = _offered(problem)
+    given = offer.correction.at(_inputs(offer, 200e3, 0.1))
+    expected = _bump_at(np.array([200e3]), np.array([0.1]))
+    assert given == pytest.approx(expected, abs=8.0)
 
 
 def test_it_is_worth_what_it_takes_off_on_sweeps_left_out(bump: Offer) -> None:
