@@ -78,7 +78,7 @@ class SerialLine(Line[Q]):
         limit = self._now() + self._timeout
         self._read()
         while (left := self._heard + self._silence - self._now()) > 0:
-            # Not by what time it is: a timer that rings early ends no silence.
+            # Not by what time it is: a timer may ring before the silence is over.
             if self._heard > limit:
                 message = f"{self._name} does not fall silent: nothing was sent"
                 raise BadReply(message)
