@@ -222,6 +222,24 @@ def pinned(problem: Problem, *open_paths: str) -> Problem:
     return replace(problem, constants=listed)
 
 
+def undoubted(problem: Problem) -> Problem:
+    """The same, its smooth pressures taken for known: but for the noise of the force.
+
+    Then the covariance of a residual is that of the noise alone.
+    """
+    known = [
+        replace(
+            course,
+            smooth={
+                **course.smooth,
+                "pressure": course.smooth["pressure"]._replace(doubt=0.0),
+            },
+        )
+        for course in problem.courses
+    ]
+    return replace(problem, courses=tuple(known))
+
+
 def _changed(
     plain: Recording, columns: Callable[[Run], Mapping[str, Array]]
 ) -> Recording:

@@ -41,6 +41,8 @@ class Smooth(NamedTuple):
     """Standard deviation of the value amid the column, as the past alone has it."""
     leapt: tuple[slice, ...] = ()
     """Rows of samples to which it leapt, one after the other."""
+    doubt: Array | float = 0.0
+    """Standard deviation of the value, as the whole column has it."""
 
 
 def smooth(
@@ -93,7 +95,7 @@ def smooth(
     likelihood = density.sum() - CORNER * np.count_nonzero(np.diff(path))
     stiffness *= supple
     _, states, spreads, leaps = compiled(filtered)(scaled, step, stiffness, leap, fast)
-    level, slope = compiled(smoothed)(states, spreads, step, stiffness, leaps)
+    level, slope, left = compiled(smoothed)(states, spreads, step, stiffness, leaps)
     rows = _rows(leaps > 0)
     return Smooth(
         level * scale + np.nanmean(column),
@@ -102,6 +104,8 @@ def smooth(
         variance,
         float(np.sqrt(np.median(spreads[:, 0]))) * float(scale),
         rows,
+        # Rounding may leave less than nothing of what begins so wide.
+        np.sqrt(np.maximum(left, 0.0)) * scale,
     )
 
 

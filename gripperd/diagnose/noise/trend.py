@@ -82,13 +82,16 @@ def cheapest(densities: Array, cost: float) -> NDArray[np.int64]:
 
 def smoothed(
     states: Array, spreads: Array, step: Array, stiffness: Array, leaps: Array
-) -> tuple[Array, Array]:
-    """Rauch-Tung-Striebel pass backwards: level and slope."""
+) -> tuple[Array, Array, Array]:
+    """Rauch-Tung-Striebel pass backwards: level, slope and variance of the level."""
     n = step.size
     level = states[:, 0].copy()
     slope = states[:, 1].copy()
+    a, b, c = spreads[n - 1, 0], spreads[n - 1, 1], spreads[n - 1, 2]
+    variance = np.full(n, a)
     for i in range(n - 2, -1, -1):
         dt, q = step[i + 1], stiffness[i + 1]
+        after = a, b, c
         a, b, c = spreads[i, 0], spreads[i, 1], spreads[i, 2]
         # Predicted covariance of the next state, and the gain P F' / predicted.
         pa = a + 2 * dt * b + dt * dt * c + q * dt**3 / 3 + leaps[i + 1]
@@ -96,6 +99,7 @@ def smoothed(
         pc = c + q * dt
         determinant = pa * pc - pb * pb
         if determinant <= 0:
+            variance[i] = a
             continue
         fa, fb = a + dt * b, b
         ga, gb = b + dt * c, c
@@ -107,4 +111,11 @@ def smoothed(
         bend = slope[i + 1] - states[i, 1]
         level[i] = states[i, 0] + k11 * ahead + k12 * bend
         slope[i] = states[i, 1] + k21 * ahead + k22 * bend
-    return level, slope
+        da, db, dc = after[0] - pa, after[1] - pb, after[2] - pc
+        a, b, c = (
+            a + k11 * k11 * da + 2 * k11 * k12 * db + k12 * k12 * dc,
+            b + k11 * k21 * da + (k11 * k22 + k12 * k21) * db + k12 * k22 * dc,
+            c + k21 * k21 * da + 2 * k21 * k22 * db + k22 * k22 * dc,
+        )
+        variance[i] = a
+    return level, slope, variance

@@ -60,6 +60,10 @@ class Course:
         """One sigma of the noise taken off a column, as a mean of many has it."""
         return self.smooth[name].variance ** 0.5 if name in self.smooth else 0.0
 
+    def doubt(self, name: str) -> Array | float:
+        """One sigma of the level of a column; 0 where no noise was taken off."""
+        return self.smooth[name].doubt if name in self.smooth else 0.0
+
     def rate(self, name: str) -> Array:
         """Rate of a column, 0 where its noise was not taken off. [1/s]."""
         return (

@@ -12,6 +12,7 @@ from gripperd.diagnose.readings.course import Course, joined
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.residuals.block import Block, Group
 from gripperd.diagnose.residuals.constants import NUISANCE, Constant, moved
+from gripperd.diagnose.residuals.doubt import own_shares
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.runs import Runs
@@ -199,7 +200,8 @@ class Problem:
 
     def white(self, columns: Sequence[Array], index: int) -> Array:
         """Whiten columns of one block, shape ``(n, k)``."""
-        return innovations(np.column_stack(columns), *self._laws[index])
+        shared = self._shares[index][:, None] * np.column_stack(columns)
+        return innovations(shared, *self._laws[index])
 
     @cached_property
     def _laws(self) -> list[tuple[Array, Array]]:
@@ -208,6 +210,12 @@ class Problem:
             law_of(time, block.noise or self.noises[block.signal])
             for block, time in zip(self.blocks, self.times, strict=True)
         ]
+
+    @cached_property
+    def _shares(self) -> list[Array]:
+        """What :func:`own_shares` gives, block by block."""
+        stds = [(block.noise or self.noises[block.signal]).std for block in self.blocks]
+        return own_shares(self.model, self.courses, self.blocks, stds)
 
     @cached_property
     def zeros(self) -> list[Array]:

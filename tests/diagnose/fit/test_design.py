@@ -26,6 +26,7 @@ from tests.diagnose.small import (
     nothing,
     recording,
     rubbing,
+    undoubted,
     with_grip,
     without,
 )
@@ -48,6 +49,7 @@ def _only(found: Design) -> Member:
 def test_products_are_those_of_the_covariance_of_the_noise(
     blank: Problem, start: Point
 ) -> None:
+    blank = undoubted(blank)
     found = design(blank, start, [BIAS])
     member = _only(found)
     products = found.gram.products[np.ix_(member.columns, member.columns)]

@@ -20,6 +20,7 @@ from tests.diagnose.small import (
     covariance,
     recording,
     threshold,
+    undoubted,
 )
 
 INERT = Constant("gripper.open_width", 0.085, 1e-3, stated=False)
@@ -33,7 +34,7 @@ def late() -> Found:
 
 def test_the_evidence_of_an_amplitude_is_its_marginal_likelihood() -> None:
     problem = problem_of(recording(lambda m: 4.0 + 0 * m.time), MODEL, {})
-    problem = replace(problem, constants=(INERT,))
+    problem = undoubted(replace(problem, constants=(INERT,)))
     start = Point(np.zeros(1))
     bias = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
     null = Rival((), polished(problem, start))

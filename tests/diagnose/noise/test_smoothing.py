@@ -20,26 +20,29 @@ def _covariance(time: Array, stiffness: float) -> Array:
     return np.asarray(1e6 + 1e6 * np.outer(since, since) + stiffness * wander)
 
 
-def _dense(column: Array, std: float) -> tuple[float, Array]:
-    """Best log density over all stiffnesses, and the posterior mean there."""
+def _dense(column: Array, std: float) -> tuple[float, Array, Array]:
+    """Best log density over all stiffnesses, and the posterior there: mean and std."""
     scaled = (column - column.mean()) / std
     size = column.size
-    found: list[tuple[float, Array]] = []
+    found: list[tuple[float, Array, Array]] = []
     for stiffness in STIFFNESSES.tolist():
         trend = _covariance(TIME, stiffness)
         law = multivariate_normal(np.zeros(size), trend + np.eye(size))
         density = float(law.logpdf(scaled)) + 0.5 * size * np.log(2 * np.pi)
-        mean = trend @ np.linalg.solve(trend + np.eye(size), scaled)
-        found.append((density, mean * std + column.mean()))
+        both = np.column_stack([scaled, trend])
+        told = trend @ np.linalg.solve(trend + np.eye(size), both)
+        mean, left = told[:, 0], np.sqrt(np.diag(trend - told[:, 1:]))
+        found.append((density, mean * std + column.mean(), left * std))
     return max(found, key=lambda one: one[0])
 
 
 def test_the_smoother_is_the_posterior_of_an_integrated_random_walk() -> None:
     column = 40.0 * np.sin(TIME) + noise(60, 2.0)
-    density, mean = _dense(column, 2.0)
+    density, mean, std = _dense(column, 2.0)
     known = smooth(TIME, column, 4.0)
     assert known.likelihood == pytest.approx(density, abs=0.01)
     np.testing.assert_allclose(known.value, mean, atol=0.01)
+    np.testing.assert_allclose(known.doubt, std, rtol=0.01)
 
 
 def test_of_a_noisy_line_little_but_the_line_is_left() -> None:

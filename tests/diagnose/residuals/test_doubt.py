@@ -1,0 +1,105 @@
+"""How much of what a force is off comes from a pressure that is known no better."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.block import Block
+from gripperd.diagnose.residuals.doubt import own_shares
+from gripperd.model.effect import Signal
+from gripperd.model.track import Array
+from tests.diagnose.small import MODEL
+
+FAST, QUIET = 3e3, Noise(2.0, 0.0)
+"""Noise of a pressure transmitter [Pa], and of a force cell [N]."""
+BLADDERLESS = replace(MODEL, effects=())
+"""Of it a force is pressure times area, to be had without the model."""
+TIME = np.arange(0.0, 40.0, 0.1)
+
+
+def _swings() -> Array:
+    """A pressure that turns every second or so, at random. [Pa]."""
+    rng = np.random.default_rng(5)
+    waves = [
+        40e3 * np.sin(2 * np.pi * (pace * TIME + rng.random()))
+        for pace in (0.31, 0.53, 0.71, 0.97)
+    ]
+    return np.asarray(300e3 + sum(waves))
+
+
+def _held() -> Array:
+    """Two dwells with one step between. [Pa]."""
+    return np.where(TIME < 20.0, 200e3, 400e3)
+
+
+@pytest.fixture(scope="module")
+def sweeps() -> dict[str, Course]:
+    rng = np.random.default_rng(6)
+    runs = [
+        Run(
+            name,
+            {
+                "time": start + TIME,
+                "pressure": pressure + rng.normal(0.0, FAST, TIME.size),
+                "contraction": 0.08 + rng.normal(0.0, 1e-5, TIME.size),
+                "force": rng.normal(0.0, QUIET.std, TIME.size),
+            },
+        )
+        for start, (name, pressure) in zip(
+            (0.0, 100.0, 200.0),
+            {"swings": _swings(), "held": _held(), "held again": _held()}.items(),
+            strict=True,
+        )
+    ]
+    found, _ = courses(Recording("both", "0" * 64, tuple(runs)), 0.2)
+    return {course.run: course for course in found}
+
+
+def _shares(sweeps: Mapping[str, Course], signal: Signal) -> dict[str, Array]:
+    every = np.ones(TIME.size, dtype=bool)
+    blocks = [Block(place, signal, every) for place in range(len(sweeps))]
+    stds = [QUIET.std] * len(blocks)
+    found = own_shares(BLADDERLESS, list(sweeps.values()), blocks, stds)
+    return dict(zip(sweeps, found, strict=True))
+
+
+def test_swings_as_fast_as_samples_make_a_force_as_doubtful_as_it_is(
+    sweeps: Mapping[str, Course],
+) -> None:
+    true, course = _swings(), sweeps["swings"]
+    muscle = BLADDERLESS.muscle
+    area = np.pi * muscle.diameter**2 / 4 * (
+        3 * 0.92**2 / np.tan(muscle.braid_angle) ** 2
+        - 1 / np.sin(muscle.braid_angle) ** 2
+    )  # fmt: skip
+    wrong = area * (course.level("pressure") - true)
+    share = _shares(sweeps, Signal.FORCE)["swings"]
+    told = np.sqrt(np.mean(QUIET.std**2 * (1 / share**2 - 1)))
+    assert np.std(wrong) > QUIET.std
+    # Waves are smoother than a trend that may turn at any sample.
+    assert np.std(wrong) < told < 2 * np.std(wrong)
+
+
+def test_a_dwell_is_known_well(sweeps: Mapping[str, Course]) -> None:
+    share = _shares(sweeps, Signal.FORCE)["held"]
+    assert share[np.abs(TIME - 20.0) > 1.0].min() > 0.8
+
+
+def test_a_pressure_is_foretold_from_a_command_that_is_known(
+    sweeps: Mapping[str, Course],
+) -> None:
+    assert (_shares(sweeps, Signal.PRESSURE)["swings"] == 1.0).all()
+
+
+def test_where_all_is_as_doubtful_the_noise_holds_it_already(
+    sweeps: Mapping[str, Course],
+) -> None:
+    alone = _shares({"swings": sweeps["swings"]}, Signal.FORCE)["swings"]
+    assert np.median(alone) == pytest.approx(1.0)
+    assert np.quantile(alone, 0.1) > 0.9
