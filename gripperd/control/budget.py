@@ -72,7 +72,8 @@ def budget(
     to what is measured where that is less; creep may yet take its whole share. So
     with the least pressure :math:`p_s` that carries the object
 
-    .. math:: t = \frac{1}{k}\ln\frac{p}{p_s} \quad\text{(trapped, leak k)}, \qquad
+    .. math:: t = \frac{1}{k}\ln\frac{p}{p_s} \quad\text{(trapped, leak k; any other
+              law by :meth:`Leak.lasts`)}, \qquad
               t = \tau\ln\frac{p}{p_s} \quad\text{(vented, lag } \tau\text{)}
 
     Parameters
@@ -103,13 +104,13 @@ def budget(
     except DomainError:
         return None
     leak = next((each for each in chain.effects if isinstance(each, Leak)), None)
-    trapped = _lasting(left, worst_leak if leak is None else leak.rate)
+    trapped = _lasting(left, pressure, leak or Leak(rate=worst_leak))
     lost = {
         FailMode.VENT: left * (REGULATOR_LAG + CHAMBER_LAG) / FASTEST,
         FailMode.FREEZE: trapped,
         FailMode.SPRING_CLOSE: inf,
     }[fail_mode]
-    bus = _fed(left, leak)
+    bus = _fed(left, pressure, leak)
     cause = Cause.VENT if fail_mode is FailMode.VENT else Cause.LEAK
     if left <= 0 < without_creep:
         cause = Cause.CREEP
@@ -155,17 +156,18 @@ def _creep(chain: Chain, pressure: float) -> float:
     )
 
 
-def _lasting(left: float, rate: float) -> float:
+def _lasting(left: float, pressure: float, leak: Leak) -> float:
     """Time in which trapped air leaks out to where nothing is left. [s]."""
     if left <= 0:
         return 0.0
-    return left / rate if rate > 0 else inf
+    return leak.lasts(pressure, left) if left < inf and leak.rate > 0 else inf
 
 
-def _fed(left: float, leak: Leak | None) -> float:
+def _fed(left: float, pressure: float, leak: Leak | None) -> float:
     """The same while a regulator that nobody commands any more feeds the leak. [s]."""
     if left <= 0:
         return 0.0
     if leak is None:
         return inf
-    return _lasting(max(left + log1p(-leak.early), 0.0), leak.rate)
+    drooped = pressure * (1 - leak.early)
+    return _lasting(max(left + log1p(-leak.early), 0.0), drooped, leak)

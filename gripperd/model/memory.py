@@ -122,10 +122,12 @@ def leaked(
     signal: Array,
     step: Array,
     still: Array,
-    law: tuple[float, float],
+    law: tuple[float, float, float],
     state: Array,
 ) -> Array:
     """Part of a signal that is lost while it stands still and filled up as it moves.
+
+    What is left sinks as ``dx/dt = -k x^(1 + n)``.
 
     Parameters
     ----------
@@ -134,11 +136,12 @@ def leaked(
     step, still
         Time since the sample before, and since the signal last moved. [s]
     law
-        Share lost per time [1/s], and time constant of filling up. [s]
+        Share lost per time where the signal is 1 [1/s], the exponent n, above -1, by
+        which that changes with the signal, and time constant of filling up. [s]
     state
         What is lost so far, shape ``(1,)``; it is moved on.
     """
-    return compiled(_leaked)(signal, step, still, law[0], law[1], state)
+    return compiled(_leaked)(signal, step, still, law, state)
 
 
 def _lag(
@@ -209,14 +212,28 @@ def _dahl(
 
 
 def _leaked(
-    signal: Array, step: Array, still: Array, rate: float, refill: float, state: Array
+    signal: Array,
+    step: Array,
+    still: Array,
+    law: tuple[float, float, float],
+    state: Array,
 ) -> Array:
     out = np.empty_like(signal)
+    rate, bend, refill = law
     lost = state[0]
     for index in range(signal.size):
-        if still[index] > 0:
-            lost += (signal[index] - lost) * -np.expm1(-rate * step[index])
-        else:
+        left = signal[index] - lost
+        if still[index] > 0 and left > 0 and rate > 0:
+            # x^-n grows by n k t.
+            gone = rate * step[index] * left**bend
+            if bend * gone <= -1:
+                left = 0.0
+            elif bend == 0:
+                left *= np.exp(-gone)
+            else:
+                left *= np.exp(-np.log1p(bend * gone) / bend)
+            lost = signal[index] - left
+        elif still[index] <= 0:
             lost *= np.exp(-step[index] / refill)
         lost = max(min(lost, signal[index]), 0.0)
         out[index] = lost

@@ -1,6 +1,6 @@
 from collections.abc import Mapping
 from dataclasses import replace
-from math import inf, log
+from math import exp, inf, log
 
 import pytest
 
@@ -101,6 +101,18 @@ def test_the_leak_of_the_model_counts_instead_of_the_worst_one(
     assert of(made, droops, FailMode.FREEZE).bus == pytest.approx(
         worst.air - lost, rel=0.02
     )
+
+
+def test_air_that_goes_with_the_square_of_its_pressure_lasts_longer_below_300_kpa(
+    chain: Chain, profiles: Profiles
+) -> None:
+    made = holding(stage(chain), profiles["apple"])
+    pressure = made.rig.plant.pressure
+    worst = of(made, chain, FailMode.FREEZE).air
+    gap = replace(chain, effects=(Leak(rate=WORST_LEAK, exponent=1.0),))
+    # One over the pressure grows by k t / 300 kPa.
+    longer = 300e3 / pressure * (exp(worst * WORST_LEAK) - 1) / WORST_LEAK
+    assert of(made, gap, FailMode.FREEZE).air == pytest.approx(longer, rel=0.02)
 
 
 def test_creep_that_may_come_shortens_it(chain: Chain, profiles: Profiles) -> None:

@@ -70,5 +70,51 @@ def test_a_vented_line_has_nothing_to_lose(muscle: Muscle) -> None:
     assert effect.along(np.zeros(2), track, effect.rest()).tolist() == [0.0, 0.0]
 
 
+@pytest.mark.parametrize(
+    ("exponent", "left"),
+    [
+        # A hole: the root of the pressure falls evenly, to nothing after 2 / k.
+        pytest.param(-0.5, [(1 - 0.25) ** 2, (1 - 0.5) ** 2, 0.0, 0.0], id="orifice"),
+        pytest.param(0.0, [exp(-0.5), exp(-1), exp(-2), exp(-4)], id="choked"),
+        # A gap: one over the pressure grows evenly.
+        pytest.param(1.0, [1 / 1.5, 1 / 2, 1 / 3, 1 / 5], id="gap"),
+    ],
+)
+def test_a_hole_a_choke_and_a_gap_empty_a_shut_line_each_in_its_way(
+    muscle: Muscle, exponent: float, left: list[float]
+) -> None:
+    still = np.array([0.0, 50.0, 100.0, 200.0, 400.0])
+    step = np.diff(still, prepend=0.0)
+    effect = Leak(rate=0.01, exponent=exponent)
+    found = _left(effect, muscle, 5 * [300e3], still=still, step=step)
+    assert found / 300e3 == pytest.approx([1.0, *left])
+
+
+@pytest.mark.parametrize("exponent", [-0.5, -0.2, 0.0, 0.6, 1.0])
+def test_it_lasts_until_the_pressure_has_fallen_as_told(
+    muscle: Muscle, exponent: float
+) -> None:
+    effect = Leak(rate=0.01, exponent=exponent)
+    lasts = effect.lasts(450e3, 0.7)
+    still, step = np.array([0.0, lasts]), np.array([0.0, lasts])
+    found = _left(effect, muscle, 2 * [450e3], still=still, step=step)
+    assert found[1] == pytest.approx(450e3 * exp(-0.7))
+
+
+def test_a_regulator_droops_at_once_by_what_it_feeds(muscle: Muscle) -> None:
+    # 1 % a second over 3 s at 300 kPa, and as the square of the pressure.
+    effect = Leak(rate=0.01, exponent=1.0, droop=3.0)
+    pressures = [0.0, 150e3, 300e3, 600e3]
+    still = np.zeros(4)
+    found = _left(effect, muscle, pressures, still=still)
+    fed = 0.03 * np.array(pressures) ** 2 / 300e3
+    assert found == pytest.approx(np.array(pressures) - fed)
+    assert effect.settled(300e3, (0.0, 500e3)) == pytest.approx(291e3)
+
+
+def test_below_nothing_there_is_nothing_to_lose() -> None:
+    assert Leak(rate=0.01, droop=3.0).settled(-5e3, (0.0, 500e3)) == -5e3
+
+
 def test_a_prediction_is_of_the_moment_before_it_leaks() -> None:
     assert Leak(rate=0.01).settled(200e3, (0.0, 500e3)) == 200e3

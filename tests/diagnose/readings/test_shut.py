@@ -133,3 +133,26 @@ def test_each_hold_of_a_sweep_is_one_of_its_own() -> None:
     waits = _recorded({"both": both}, commands={"both": [(0, TOP), (300, 0.8 * TOP)]})
     np.testing.assert_allclose(waits["both"][:300], _lasting(30.0))
     assert not waits["both"][300:].any()
+
+
+def test_a_cock_that_is_shut_by_hand_amid_a_hold_is_seen_by_its_pressure() -> None:
+    late = np.concatenate([_kept(20.0), _leaking(40.0)])
+    waits = _recorded({"hold": _kept(60.0), "late": late})["late"]
+    began = STEP * np.flatnonzero(waits > 0)[0]
+    # By then it has lost twice the noise of a reading.
+    assert began == pytest.approx(20.0, abs=2.0)
+    np.testing.assert_allclose(waits[-1], 60.0 - began, atol=2 * STEP)
+
+
+def test_a_cock_that_is_opened_amid_a_hold_ends_it() -> None:
+    both = np.concatenate([_leaking(40.0), _kept(20.0)])
+    waits = _recorded({"hold": _kept(60.0), "both": both})["both"]
+    np.testing.assert_allclose(waits[:390], _lasting(39.0))
+    assert not waits[410:].any()
+
+
+def test_where_all_sinks_it_begins_anew_when_the_pressure_has_come_back() -> None:
+    twice = np.concatenate([_leaking(40.0), _leaking(40.0)])
+    waits = _recorded({"twice": twice})["twice"]
+    np.testing.assert_allclose(waits[:390], _lasting(39.0))
+    np.testing.assert_allclose(waits[-1], 39.9, atol=1.0)
