@@ -49,8 +49,8 @@ class Leak(InValve):
     name: ClassVar[str] = "leak"
     needs: ClassVar[frozenset[str]] = frozenset({"current", "pressure"})
     shows: ClassVar[str] = (
-        "measured pressure sinks for as long as the current stands still, in proportion"
-        " to the pressure"
+        "measured pressure sinks for as long as the current stands still, the faster"
+        " the higher it is"
     )
     confused_with: ClassVar[tuple[str, ...]] = ("creep", "supply_saturation")
     remedy: ClassVar[str] = "find the leak with soap water, fittings first"
