@@ -156,3 +156,9 @@ def test_where_all_sinks_it_begins_anew_when_the_pressure_has_come_back() -> Non
     waits = _recorded({"twice": twice})["twice"]
     np.testing.assert_allclose(waits[:390], _lasting(39.0))
     np.testing.assert_allclose(waits[-1], 39.9, atol=1.0)
+
+
+def test_a_hold_whose_readings_are_missing_may_be_shut_from_its_command_on() -> None:
+    gone = np.concatenate([_leaking(1.0, 0.05), np.full(290, np.nan)])
+    waits = _recorded({"hold": _kept(60.0), "gone": gone})["gone"]
+    np.testing.assert_allclose(waits, STEP * np.arange(gone.size))
