@@ -13,7 +13,9 @@ from tests.diagnose.small import (
     FORCE_NOISE,
     MODEL,
     PRESSURE_NOISE,
+    moments,
     recording,
+    undoubted,
     with_jaws,
 )
 
@@ -122,3 +124,30 @@ def test_loosened_tolerances_were_searched_no_further(blank: Problem) -> None:
     looser = replace(freed, looser=(2.0,) * len(blank.constants))
     assert blank.reach(freed)[0] > blank.reach(start)[0]
     assert blank.reach(looser)[0] == blank.reach(start)[0]
+
+
+def test_a_force_that_follows_from_a_doubtful_pressure_weighs_as_much_less(
+    blank: Problem, start: Point
+) -> None:
+    std, doubt = 2.0, 10e3
+    alone = replace(
+        undoubted(blank), noises={**blank.noises, Signal.FORCE: Noise(std, 0.0)}
+    )
+    place = next(i for i, course in enumerate(alone.courses) if course.run == "a")
+    courses = list(alone.courses)
+    pressure = courses[place].smooth["pressure"]
+    smooth = {**courses[place].smooth, "pressure": pressure._replace(doubt=doubt)}
+    courses[place] = replace(courses[place], smooth=smooth)
+    doubtful = replace(alone, courses=tuple(courses))
+    handed = doubt * float(moments()["a"].pull_area[0])
+    for index, (block, left) in enumerate(
+        zip(alone.blocks, alone.residuals(start), strict=True)
+    ):
+        least = block.course == place and block.signal is Signal.FORCE
+        weight = std / np.hypot(std, handed) if least else 1.0
+        np.testing.assert_allclose(
+            doubtful.white([left], index),
+            weight * alone.white([left], index),
+            rtol=0.02,
+            atol=1e-6,
+        )
