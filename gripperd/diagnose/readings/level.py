@@ -8,14 +8,12 @@ from scipy.optimize import isotonic_regression
 
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.smoothing import LEAP, Smooth, smooth
+from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.travel import contracting, leaning, reversal
-from gripperd.model.memory import begin, lag
 
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
-LATE = (1e-3, 0.03, 0.1, 0.3, 1.0)
-"""Lags tried between command and pressure. [s]"""
 QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
@@ -127,7 +125,7 @@ def _unswung(sweep: Run, plain: Smooth) -> Smooth:
 
 
 def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:
-    """Pressure as the command, followed so late, plus a smooth difference.
+    """Pressure as a regulator makes it of the command, plus a smooth difference.
 
     The command has corners that no trend can follow, and no noise. Taken when likelier
     than a trend alone.
@@ -144,12 +142,12 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
     unknown = leaps(command, float(np.ptp(command)), step) & (step > QUICK)
     pressure = np.where(unknown, np.nan, pressure)
     best = smooth(time, pressure, variance) if unknown.any() else plain
-    for late in LATE:
-        followed = lag(command, step, late, late, begin())
-        beside = smooth(time, pressure - followed, variance)
-        if beside.likelihood > best.likelihood:
-            rate = beside.rate + np.gradient(followed, time)
-            best = beside._replace(value=beside.value + followed, rate=rate)
+    for made, price in followed(command, step, pressure):
+        beside = smooth(time, pressure - made, variance)
+        likelihood = beside.likelihood - price
+        if likelihood > best.likelihood:
+            value, rate = beside.value + made, beside.rate + np.gradient(made, time)
+            best = beside._replace(value=value, rate=rate, likelihood=likelihood)
     return best
 
 

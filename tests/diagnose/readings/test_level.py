@@ -3,6 +3,7 @@ import pytest
 
 from gripperd.diagnose.noise.smoothing import LEAP, smooth
 from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.recording import Run
 from gripperd.model.track import Array
 from tests.diagnose.cycled import CORNER, SIZE, WAY, cut, cycled
 from tests.diagnose.sweep import noise, run, triangle
@@ -32,6 +33,34 @@ def test_pressure_keeps_the_corner_of_its_command() -> None:
         )
     )
     assert course.level("pressure")[CORNER] == pytest.approx(500e3, abs=1e3)
+
+
+@pytest.mark.parametrize("half", [5e3, 8e3, 12e3, 20e3])
+@pytest.mark.parametrize("came", [-1.0, 0.0, 1.0])
+def test_pressure_keeps_the_corners_of_a_dead_band(half: float, came: float) -> None:
+    # Ramps of 0.5 s and rests of 2 s, up and down; then rests that tell the noise.
+    levels = np.repeat([0.0, 100e3, 200e3, 300e3, 400e3, 300e3, 200e3, 100e3, 0.0], 2)
+    knots = np.column_stack([np.arange(9) * 50, np.arange(9) * 50 + 40]).ravel()
+    command = 20e3 + np.interp(np.arange(450), knots, levels)
+    true, held = [], command[0] - came * half
+    for goal in command:
+        held = min(max(held, goal - half), goal + half)
+        true.append(held)
+    rest = np.full(450, 200e3)
+    way, *_ = cut(
+        _regulated("way", command, np.array(true) + noise(450, 2.4e3, 1, memory=0.5)),
+        _regulated("rest", rest, rest + noise(450, 2.4e3, 2, memory=0.5)),
+        _regulated("again", rest, rest + noise(450, 2.4e3, 3, memory=0.5)),
+    )
+    left = way.level("pressure") - true
+    assert np.abs(left).max() < 4.5e3
+    assert np.std(left) < 0.3 * 2.4e3
+
+
+def _regulated(name: str, command: Array, pressure: Array) -> Run:
+    time = np.linspace(0.0, 0.05 * (command.size - 1), command.size)
+    current = 0.004 + 0.016 * command / 500e3
+    return run(name, time=time, current=current, pressure=pressure)
 
 
 def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None:
