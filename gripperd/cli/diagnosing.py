@@ -1,6 +1,7 @@
 """The command that finds what a model lacks, and may add it."""
 
 import json
+import os
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -86,7 +87,13 @@ def _found(recording: Path, model: "ModelFile", seed: int) -> "Diagnosis":
         read = read_recording(recording)
         try:
             return found(
-                read, model.explanation(), model.tolerances, EFFECTS, seed, tell
+                read,
+                model.explanation(),
+                model.tolerances,
+                EFFECTS,
+                seed,
+                tell,
+                len(os.sched_getaffinity(0)),
             )
         except InputError as broken:
             # The diagnosis knows no files: it names the recording.

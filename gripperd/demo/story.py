@@ -1,6 +1,7 @@
 """From a model that is wrong to one that is not, step by step."""
 
 import json
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
@@ -74,6 +75,7 @@ def demonstrate(  # noqa: PLR0913  (what, where, when)
             EFFECTS,
             seed,
             progress,
+            len(os.sched_getaffinity(0)),
         )
         report = folder / "report.html"
         text = page(found, model=model.name, program=program)

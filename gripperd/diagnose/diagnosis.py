@@ -106,13 +106,14 @@ class Diagnosis:
         return self.contest.best.fit.point
 
 
-def diagnose(
+def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
     recording: Recording,
     model: Explanation,
     tolerances: Mapping[str, float],
     library: Mapping[str, type[Effect]],
     seed: int = 0,
     progress: Progress = lambda _what, _share: None,
+    processes: int = 1,
 ) -> Diagnosis:
     """Find out what a model lacks to explain a recording.
 
@@ -130,6 +131,8 @@ def diagnose(
         Of every random draw: the same seed gives the same diagnosis.
     progress
         Told how far it is.
+    processes
+        How many share the work; the diagnosis is the same.
 
     Raises
     ------
@@ -138,25 +141,26 @@ def diagnose(
     """
     # Threads cost small matrices more than they give, and would round otherwise.
     with threadpool_limits(limits=1, user_api="blas"):
-        return _diagnosed(recording, model, tolerances, library, seed, progress)
+        progress("noise and drift", 0.05)
+        contradicted = beyond_use(recording)
+        recording = recording if contradicted else believed(recording)
+        recording = thinned(recording, MOST_ROWS)
+        problem = problem_of(recording, model, tolerances)
+        parts = split(replace(problem, processes=processes))
+        if contradicted:
+            return _without_verdict(recording, contradicted, parts, seed)
+        return _diagnosed(recording, parts, tolerances, library, seed, progress)
 
 
 def _diagnosed(
     recording: Recording,
-    model: Explanation,
+    parts: Split,
     tolerances: Mapping[str, float],
     library: Mapping[str, type[Effect]],
     seed: int,
     progress: Progress,
 ) -> Diagnosis:
     rng = np.random.default_rng(seed)
-    progress("noise and drift", 0.05)
-    contradicted = beyond_use(recording)
-    recording = recording if contradicted else believed(recording)
-    recording = thinned(recording, MOST_ROWS)
-    parts = split(problem_of(recording, model, tolerances))
-    if contradicted:
-        return _without_verdict(recording, contradicted, parts, seed)
     listed, untested = candidates(library, parts.train, _columns(recording))
     progress("friction at rest", 0.2)
     train = with_resting_sign(parts.train, listed)

@@ -122,6 +122,7 @@ def _judged(file: Path, folder: Path, seed: int) -> Judged:
         EFFECTS,
         seed,
         lambda what, share: say(Progress(what, share)),
+        len(os.sched_getaffinity(0)),
     )
     say(Progress("report", 0.95))
     said = document(found, model=model.name, program=__version__)

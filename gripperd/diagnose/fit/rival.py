@@ -1,11 +1,14 @@
 """Rivals: explanations that were fitted in full, to be weighed by their evidence."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.polish import Polished, polished
+from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 
@@ -34,10 +37,25 @@ class Rival:
         return float(sum(self.fit.misfits.values())) - self.fit.samples
 
 
-def larger(problem: Problem, rival: Rival, candidate: Candidate) -> Rival:
-    """Give an explanation with one more, everything fitted anew."""
-    point = added(rival.fit.point, candidate)
-    return Rival((*rival.candidates, candidate), polished(problem, point))
+Start: TypeAlias = tuple[tuple[Candidate, ...], Point]
+"""An explanation before its fit, and a point nearby at which it acts."""
+
+
+def fitted(problem: Problem, starts: Sequence[Start]) -> list[Rival]:
+    """Fit some explanations, side by side."""
+    points = [point for _, point in starts]
+    fits = side_by_side(lambda one: polished(problem, one), points, problem.processes)
+    return [Rival(one, fit) for (one, _), fit in zip(starts, fits, strict=True)]
+
+
+def larger(
+    problem: Problem, rival: Rival, candidates: Iterable[Candidate]
+) -> list[Rival]:
+    """Give an explanation with one more, for each of some, everything fitted anew."""
+    here = rival.fit.point
+    return fitted(
+        problem, [((*rival.candidates, one), added(here, one)) for one in candidates]
+    )
 
 
 def added(point: Point, candidate: Candidate) -> Point:

@@ -5,8 +5,6 @@ from dataclasses import dataclass, replace
 from math import isfinite
 from typing import TypeVar
 
-import numpy as np
-
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -78,6 +76,11 @@ class Constant:
         return _MOVES.get(self.path) or _MOVES[self.path.partition(".")[0]]
 
     @property
+    def reads(self) -> bool:
+        """Whether it changes what is thought to have happened, not what follows."""
+        return self.path.partition(".")[0] != "gripper" and self.path not in _LATER
+
+    @property
     def reach(self) -> float:
         """How far it may be off, in sigma."""
         if self.path.partition(".")[0] not in PARTS:
@@ -93,7 +96,13 @@ class Constant:
         return int(name) if owner == "rest" and self.path != SHARED else None
 
 
+_MADE_AT_ALL: Mapping[str, tuple[float, float]] = {
+    "braid_angle": (0.09, 0.95), "friction_coefficient": (0.0, 2.0),
+}  # fmt: skip
 _JAWS = frozenset({Signal.OPENING, Signal.GRIP})
+_LATER = frozenset(
+    {"response.valve", "zero.opening", "zero.grip", "skew.opening", "skew.grip"}
+)
 _MOVES: Mapping[str, frozenset[Signal]] = {
     "muscle": frozenset({Signal.FORCE}),
     "muscle.rest_length": _JAWS | {Signal.FORCE},
@@ -215,11 +224,11 @@ def together(one: Sign, other: float) -> Sign:
 
 def _kept(values: Mapping[str, float]) -> dict[str, float]:
     """Keep the constants of a muscle within what could be made at all."""
-    limits = {"braid_angle": (0.09, 0.95), "friction_coefficient": (0.0, 2.0)}
-    return {
-        name: float(np.clip(value, *limits.get(name, (1e-6, 1e12))))
-        for name, value in values.items()
-    }
+    kept = {}
+    for name, value in values.items():
+        low, high = _MADE_AT_ALL.get(name, (1e-6, 1e12))
+        kept[name] = min(max(value, low), high)
+    return kept
 
 
 def _part(explanation: Explanation, owner: str) -> object | None:

@@ -41,6 +41,8 @@ class Problem:
     """Samples of each course that take part; all when empty."""
     dwells: tuple[Block, ...] = ()
     """Stretches that are judged once more, each about a level of its own."""
+    processes: int = 1
+    """How many fit side by side."""
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:

@@ -38,17 +38,18 @@ def sensitivities(
     problem: Problem, point: Point, base: Base | None = None
 ) -> list[list[Array]]:
     """Change of every block for one sigma of each constant; constants first."""
-    here = (base or Base.of(problem, point)).expected
+    base = base or Base.of(problem, point)
+    here = base.expected
     # At its upper end a constant moves back: a sign of friction is 1 there for good.
     ends = problem.reach(point) * point.widths
     steps = np.where(point.shifts + STEP > ends, -STEP, STEP)
     # Constants of one sweep each are moved together: none feels the others.
     own = [i for i, one in enumerate(problem.constants) if one.course is not None]
-    apart = _moved(problem, point, own, steps) if own else []
+    apart = _moved(problem, point, base, own, steps) if own else []
     found: list[list[Array]] = []
     for index, constant in enumerate(problem.constants):
         if constant.course is None:
-            there = _moved(problem, point, [index], steps)
+            there = _moved(problem, point, base, [index], steps)
         else:
             there = _of_course(problem, apart, constant.course)
         found.append(_quotient(problem, there, here, float(steps[index])))
@@ -56,14 +57,16 @@ def sensitivities(
 
 
 def _moved(
-    problem: Problem, point: Point, indices: list[int], steps: Array
+    problem: Problem, point: Point, base: Base, indices: list[int], steps: Array
 ) -> list[Array]:
     """Readings where some constants are moved on; empty where they change nothing."""
     shifts = point.shifts.copy()
     shifts[indices] += steps[indices]
     there = problem.explanation(replace(point, shifts=shifts))
-    signals = frozenset[Signal]().union(*(problem.constants[i].moves for i in indices))
-    return problem.expected(there, signals)
+    moving = [problem.constants[i] for i in indices]
+    signals = frozenset[Signal]().union(*(one.moves for one in moving))
+    tracks = None if any(one.reads for one in moving) else base.tracks
+    return problem.expected(there, signals, tracks)
 
 
 def _of_course(problem: Problem, readings: list[Array], course: int) -> list[Array]:

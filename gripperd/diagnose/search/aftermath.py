@@ -8,7 +8,7 @@ from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.crossing import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.polish import Polished, polished
-from gripperd.diagnose.fit.rival import Rival, added, larger
+from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
 from gripperd.diagnose.fit.temperature import cooled
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.point import Point
@@ -160,7 +160,7 @@ def _is_cause(kind: Aftermath, candidate: Candidate) -> bool:
 
 def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival]:
     """Give it with one more, best first."""
-    found = [larger(problem, here, one.candidate) for one in more]
+    found = larger(problem, here, [one.candidate for one in more])
     return sorted(found, key=lambda rival: -rival.evidence)
 
 
@@ -207,10 +207,12 @@ def _weighed(
 ) -> Iterator[Rival]:
     """Give what fits as well in a place."""
     bare = removed(problem, told.fit.point, told.candidates[index])
-    for one in stand_ins:
-        if one.name in told.names:
-            continue
-        candidates = (*told.candidates[:index], one, *told.candidates[index + 1 :])
-        rival = Rival(candidates, polished(problem, added(bare, one)))
+    before, after = told.candidates[:index], told.candidates[index + 1 :]
+    starts = [
+        ((*before, one, *after), added(bare, one))
+        for one in stand_ins
+        if one.name not in told.names
+    ]
+    for rival in fitted(problem, starts):
         if told.evidence - rival.evidence < SURE:
             yield rival

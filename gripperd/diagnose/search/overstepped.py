@@ -40,11 +40,8 @@ def with_overstepped(
     problem, here = found.problem, best.best
     if not (problem.is_hot and here.candidates) or here.fit.point.freed:
         return best
-    freed = [
-        larger(problem, here, one)
-        for one in listed
-        if one.name in at_edge(problem, here)
-    ]
+    edge = at_edge(problem, here)
+    freed = larger(problem, here, [one for one in listed if one.name in edge])
     freed = [one for one in freed if not _is_far_off(problem, one)]
     most = max((one.evidence - here.evidence for one in freed), default=0.0)
     if most <= LEAST_MORE:

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.crossing import bears_out
 from gripperd.diagnose.fit.design import Member, design
-from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
@@ -100,9 +100,16 @@ def standing_in(found: Found, told: Contest) -> Contest:
 def _all_challenged(
     problem: Problem, best: Rival, listed: Sequence[Candidate]
 ) -> list[tuple[Rival, list[Rival]]]:
+    without = without_each(problem, best)
+    others = [one for one in listed if one.name not in best.names]
+    starts = [
+        _challengers(problem, bare, index, others) for index, bare in enumerate(without)
+    ]
+    # All at once, for places may have few.
+    rivals = iter(fitted(problem, [start for own in starts for start in own]))
     return [
-        _challengers(problem, best, index, listed)
-        for index in range(len(best.candidates))
+        (bare, list(islice(rivals, len(own))))
+        for bare, own in zip(without, starts, strict=True)
     ]
 
 
@@ -129,13 +136,11 @@ def _stands_in(
 
 
 def _challengers(
-    problem: Problem, best: Rival, index: int, listed: Sequence[Candidate]
-) -> tuple[Rival, list[Rival]]:
-    """Give the best without a candidate, and with each of its strongest rivals."""
-    without = _without(problem, best, index)
+    problem: Problem, without: Rival, index: int, others: Sequence[Candidate]
+) -> list[Start]:
+    """Put each of the strongest others into the place that one has left."""
     rest, base = without.candidates, without.fit.point
-    taken = set(best.names)
-    around = design(problem, base, [one for one in listed if one.name not in taken])
+    around = design(problem, base, others)
     leaders: dict[str, tuple[float, Member]] = {}
     for member in around.members:
         evidence = around.fit(member).evidence
@@ -143,13 +148,8 @@ def _challengers(
         if name not in leaders or evidence > leaders[name][0]:
             leaders[name] = evidence, member
     strongest = sorted(leaders.values(), key=lambda one: -one[0])[:CHALLENGERS]
-    return without, [
-        Rival(
-            (*rest[:index], member.candidate, *rest[index:]),
-            polished(problem, added(base, member.candidate)),
-        )
-        for _, member in strongest
-    ]
+    chosen = [member.candidate for _, member in strongest]
+    return [((*rest[:index], one, *rest[index:]), added(base, one)) for one in chosen]
 
 
 def needed(
@@ -167,15 +167,14 @@ def needed(
 
 def without_each(problem: Problem, told: Rival) -> tuple[Rival, ...]:
     """Give it without each of its candidates, fitted anew."""
-    return tuple(
-        _without(problem, told, index) for index in range(len(told.candidates))
-    )
-
-
-def _without(problem: Problem, told: Rival, index: int) -> Rival:
-    rest = (*told.candidates[:index], *told.candidates[index + 1 :])
-    point = removed(problem, told.fit.point, told.candidates[index])
-    return Rival(rest, polished(problem, point))
+    starts = [
+        (
+            (*told.candidates[:index], *told.candidates[index + 1 :]),
+            removed(problem, told.fit.point, own),
+        )
+        for index, own in enumerate(told.candidates)
+    ]
+    return tuple(fitted(problem, starts))
 
 
 def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:

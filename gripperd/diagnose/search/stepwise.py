@@ -6,8 +6,11 @@ References
        sections 3.2-3.6: forward, backward and exchange steps.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
+from types import MappingProxyType
+from typing import TypeAlias
 
 import numpy as np
 
@@ -15,7 +18,7 @@ from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.null import null_gains
 from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, added, larger
+from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
 from gripperd.diagnose.fit.temperature import louder, plain, reached, temperatures_of
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.point import Point
@@ -40,6 +43,9 @@ NEXT = 2
 """Explanations that are fitted in full."""
 MOST = 4
 """Effects that one recording may add."""
+
+Starts: TypeAlias = Mapping[tuple[Candidate, ...], Point]
+"""Where a fit of some candidates ended when the noise was taken to be louder."""
 
 
 def search(
@@ -81,7 +87,8 @@ def _cooled(
         if all(cooler[s] > 0.8 * warm[s] for s in warm):
             break
         warm = cooler
-        found = _pass(louder(problem, warm), listed, rng, null.point)
+        known = {rival.candidates: rival.fit.point for rival in found.rivals}
+        found = _pass(louder(problem, warm), listed, rng, null.point, known)
     return found
 
 
@@ -90,6 +97,7 @@ def _pass(
     listed: Sequence[Candidate],
     rng: np.random.Generator,
     start: Point,
+    known: Starts = MappingProxyType({}),
 ) -> Found:
     null = Rival((), polished(problem, start))
     around = design(problem, null.fit.point, listed)
@@ -107,7 +115,7 @@ def _pass(
         # A table has so few samples that every form can be fitted in full.
         thrifty = not is_table(problem.courses)
         sets = finalists(problem, around, singles, thrifty=thrifty)
-        rivals += [_fitted(problem, null.fit.point, members) for members in sets]
+        rivals += _fitted(problem, null.fit.point, sets, known)
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
     best = _best(problem, null, rivals, chance)
@@ -126,11 +134,16 @@ def _by_name(singles: dict[Member, float]) -> dict[str, float]:
     return gains
 
 
-def _fitted(problem: Problem, start: Point, members: Sequence[Member]) -> Rival:
-    point = start
-    for member in members:
-        point = added(point, member.candidate)
-    return Rival(tuple(m.candidate for m in members), polished(problem, point))
+def _fitted(
+    problem: Problem,
+    start: Point,
+    sets: Sequence[Sequence[Member]],
+    known: Starts,
+) -> list[Rival]:
+    chosen = [tuple(member.candidate for member in members) for members in sets]
+    return fitted(
+        problem, [(one, known.get(one, reduce(added, one, start))) for one in chosen]
+    )
 
 
 def _with_bore(
@@ -140,7 +153,7 @@ def _with_bore(
     held = BORE in at_edge(problem, rival) and BORE not in rival.names
     if not (problem.is_hot and held):
         return []
-    return [larger(problem, rival, one) for one in listed if one.name == BORE]
+    return larger(problem, rival, [one for one in listed if one.name == BORE])
 
 
 def _best(
@@ -177,11 +190,12 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
         base = around.fit().evidence
         singles = {m: around.fit(m).evidence - base for m in around.members}
         alone = [(member,) for member in leaders(singles)]
-        grown = [
-            larger(problem, best, member.candidate)
+        more = [
+            member.candidate
             for (member,) in heard(problem, singles, alone, NEXT)
             if singles[member] > found.threshold
         ]
+        grown = larger(problem, best, more)
         grown += _with_bore(problem, best, listed)
         tried += grown
         if not grown:

@@ -72,7 +72,7 @@ def jump(found: Found, best: Contest) -> Jump | None:
     if not around.members:
         return None
     leader = max(around.members, key=lambda one: around.fit(one).evidence).candidate
-    foil = larger(problem, found.null, leader)
+    (foil,) = larger(problem, found.null, [leader])
     if foil.evidence <= best.best.evidence:
         return None
     (told,) = foil.fit.point.effects

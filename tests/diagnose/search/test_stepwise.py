@@ -121,7 +121,8 @@ def test_of_a_table_every_form_is_fitted_in_full_of_sweeps_the_likeliest(
     assert len(heard) == len(set(heard)) == share
     assert set(heard) <= set(listed)
     fits = [fitted(found.problem, one).evidence for one in listed]
-    assert found.best.evidence == pytest.approx(max(fits), abs=0.5)
+    # A search fits again when it knows how loud the rest is, and may come further.
+    assert found.best.evidence >= max(fits) - 0.5
 
 
 @pytest.mark.parametrize(
