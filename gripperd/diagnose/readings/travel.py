@@ -22,6 +22,8 @@ STILL = 2.7
 """A sweep within a range of so many times that has no travel. [-]"""
 BRIEF = 5
 """Samples of which a trend may miss the less beside a corner. [-]"""
+OVERSHOOT = 10
+"""Samples of which a trend may swing past a corner. [-]"""
 STUCK = 0.06
 """Half the way back, as a share of the range of the load, in which joints stick. [-]"""
 STEADY = 0.01
@@ -73,8 +75,11 @@ def travel(way: Array, least: float, begun: float = 0.0) -> Array:
     begun
         How much is undone when the way back is seen to have begun. [of the way]
     """
-    lasting = median_filter(way, BRIEF, mode="nearest") if begun > 0 else way
-    return compiled(_travel)(way, lasting, least, begun, BRIEF)
+    if begun > 0:
+        lasting = median_filter(way, 2 * OVERSHOOT + 1, mode="nearest")
+    else:
+        lasting = way
+    return compiled(_travel)(way, lasting, least, begun, OVERSHOOT)
 
 
 def _travel(

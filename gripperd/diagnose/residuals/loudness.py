@@ -19,6 +19,9 @@ RESOLUTION = 1e-4
 REVERSIBLE = 0.003
 """Difference between a rising and a falling reading of the grip, of the largest, that
 says nothing of the joints: reversibility of a transducer of class 1, ISO 376. [-]"""
+QUIETER = 0.5
+"""Share of a noise from which neighbours in a residual know better: it is told from
+readings that may rise too fast for them. [-]"""
 TURNS = 3.0
 """Time in which a grip that rises turns to one that falls. [s]"""
 
@@ -68,8 +71,9 @@ def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, No
 
     Both are compared reading by reading, so that the residual has the noise of two
     cells, and the drift of both beside what neither repeats when it turns round. None
-    is told from that residual, which is short. Sums keep the variance of a reading and
-    of a mean over many.
+    is told from that residual, which is short, unless it is quieter by far: in a grasp
+    the readings of the grip rise fast. Sums keep the variance of a reading and of a
+    mean over many.
     """
     force, grip, linkage = (
         noises.get(Signal.FORCE), noises.get(Signal.GRIP), problem.model.linkage,
@@ -79,12 +83,14 @@ def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, No
     own = grip if is_table(problem.courses) else _of_grip(problem)
     fast = own.std**2 + (force.std / linkage.ratio) ** 2
     mean = own.slow_variance + force.slow_variance / linkage.ratio**2
-    correlation = (mean - fast) / (mean + fast)
+    both = Noise(fast**0.5, (mean - fast) / (mean + fast))
+    if grip.slow_variance < QUIETER * both.slow_variance:
+        both = grip
     turned = REVERSIBLE * problem.full_scale[Signal.GRIP]
     slow = np.square([grip.drift, force.drift / linkage.ratio, turned])
     memory = float(np.average([grip.memory, force.memory, TURNS], weights=slow))
-    drift = float(slow.sum() ** 0.5)
-    return noises | {Signal.GRIP: Noise(fast**0.5, correlation, drift, memory)}
+    both = replace(both, drift=float(slow.sum() ** 0.5), memory=memory)
+    return noises | {Signal.GRIP: both}
 
 
 def _of_grip(problem: Problem) -> Noise:

@@ -48,7 +48,7 @@ def test_the_way_back_from_a_hold_begins_at_its_end_whatever_its_noise() -> None
     assert abs(turned - 600) <= 5
 
 
-@pytest.mark.parametrize("brief", [1, 2])
+@pytest.mark.parametrize("brief", [1, 2, 5, 9])
 def test_a_trend_that_goes_too_far_at_an_object_does_not_turn_there(brief: int) -> None:
     there, held = np.linspace(0.0, 0.06, 60), np.full(200, 0.06)
     held[:brief] += 8e-4

@@ -134,7 +134,7 @@ def gripping() -> Problem:
 def test_the_force_hands_its_noise_and_drift_on_to_the_grip(gripping: Problem) -> None:
     told = {
         Signal.FORCE: Noise(32.0, 0.5, drift=6.0, memory=60.0),
-        Signal.GRIP: Noise(3.0, 0.0, drift=0.5, memory=20.0),
+        Signal.GRIP: Noise(7.0, 0.5, drift=0.5, memory=20.0),
     }
     handed = _handed_on(told, gripping)[Signal.GRIP]
     # By the ratio of 4: 32² N² and 36 N² over 16, and what the grip has of its own.
@@ -166,6 +166,28 @@ def test_a_grip_is_as_noisy_as_its_two_cells(loud: float) -> None:
         if problem.blocks[index].signal is Signal.GRIP
     ]
     assert np.mean(np.concatenate(left) ** 2) == pytest.approx(1.0, abs=0.2)
+
+
+def test_a_grip_that_rises_fast_is_no_noise() -> None:
+    """Grasps at 12.5 Hz: twelve samples up, nineteen held, twelve down."""
+    runs = []
+    for place, held in enumerate((0.01, 0.03, 0.05, 0.07, 0.09, 0.11)):
+        since = np.arange(0.0, 3.5, 0.08)
+        pressure = np.interp(since, [0.0, 1.0, 2.5, 3.5], [0.0, 480e3, 480e3, 0.0])
+        size, level = since.size, np.ones(since.size)
+        force = textbook(Moment(100 * place + since, pressure, held * level, level))
+        grip = np.maximum((force - 240.0 - 1000.0 * 0.25 * held) / 4, 0.0)
+        columns = {
+            "time": 100 * place + since,
+            "pressure": pressure + noise(size, PRESSURE_NOISE, 10 + place),
+            "contraction": held + noise(size, 2e-5, 20 + place),
+            "force": force + noise(size, FORCE_NOISE, 30 + place),
+            "grip": grip + noise(size, GRIP_NOISE, 40 + place),
+        }
+        runs.append(Run(f"grasp_{place}", columns))
+    problem = problem_of(Recording("grasps", "0" * 64, tuple(runs)), JAWED, {})
+    both = float(np.hypot(GRIP_NOISE, FORCE_NOISE / 4))
+    assert problem.noises[Signal.GRIP].std == pytest.approx(both, rel=0.25)
 
 
 def test_a_noisy_force_hides_no_contact(gripping: Problem) -> None:
