@@ -4,6 +4,8 @@ References
 ----------
 .. [1] ANSI/ISA-51.1-1979 (R1993), "Process Instrumentation Terminology": terminal-based
        linearity, the deviation from the line through both ends.
+.. [2] M. Abramowitz, I. A. Stegun, "Handbook of Mathematical Functions", 1964, table
+       22.9: Legendre polynomials.
 """
 
 from dataclasses import dataclass
@@ -16,18 +18,20 @@ from gripperd.model.kinds import InValve
 from gripperd.model.parameter import amplitude
 from gripperd.model.real import Real
 
-SKEW_PEAK = sqrt(3) / 18
-"""Largest value of ``x (1 - x) (1 - 2 x)``, at ``x = 1/2 - sqrt(3)/6``. [-]"""
+PEAKS = (1 / 4, sqrt(3) / 18, 1 / 8, 0.0925954)
+"""Largest values of ``x (1 - x) P(1 - 2 x)``, for Legendre's polynomials from order 0:
+at the middle, at ``x = 1/2 - sqrt(3)/6``, at the middle, at ``x = 0.3078``. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
 class ValveNonlinearity(InValve):
-    r"""A bow and a skew of the curve, both zero at the ends of the line.
+    r"""A bow of the curve, a skew, and two waves, all zero at the ends of the line.
 
-    .. math:: p = p_0 + a\,4 x (1 - x) + b\,\frac{x (1 - x) (1 - 2 x)}{\sqrt 3 / 18}
+    .. math:: p = p_0 + \sum_{i=0}^{3} a_i \frac{x (1 - x) P_i(1 - 2 x)}{m_i}
 
-    with x the place on the line, 0 to 1. These are all the deviations of third order;
-    beyond the ends the line goes on as it was.
+    with x the place on the line, 0 to 1, Legendre's polynomials and the peaks m of
+    their terms. These are all the deviations of fifth order; beyond the ends the line
+    goes on as it was.
     """
 
     name: ClassVar[str] = "valve_nonlinearity"
@@ -43,12 +47,22 @@ class ValveNonlinearity(InValve):
     """Deviation in the middle of the line. [Pa]"""
     skew: float = amplitude(unit="kPa", scale=5e3, low=-100e3, high=100e3)
     """Deviation at a fifth of the line, and its opposite at four fifths. [Pa]"""
+    wave: float = amplitude(unit="kPa", scale=5e3, low=-50e3, high=50e3)
+    """Its opposite in the middle, with a third of it a tenth from the ends. [Pa]"""
+    skew_wave: float = amplitude(unit="kPa", scale=5e3, low=-50e3, high=50e3)
+    """Its opposite at a third of the line, and this at two thirds. [Pa]"""
 
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Pressure on the bent curve. [Pa]."""
         low, high = span
         place = np.clip((pressure - low) / (high - low), 0.0, 1.0)
-        bulge = place * (1 - place)
-        skewed = bulge * (1 - 2 * place) / SKEW_PEAK
-        bent: Real = pressure + 4 * self.bow * bulge + self.skew * skewed
-        return bent
+        along = 1 - 2 * place
+        terms = zip(
+            (self.bow, self.skew, self.wave, self.skew_wave),
+            (1.0, along, (3 * along**2 - 1) / 2, (5 * along**3 - 3 * along) / 2),
+            PEAKS,
+            strict=True,
+        )
+        bent = sum(size * legendre / peak for size, legendre, peak in terms)
+        off: Real = pressure + place * (1 - place) * bent
+        return off

@@ -81,6 +81,17 @@ def rubbing(newtons: float) -> Hidden:
     return lambda moment: -newtons * moment.direction
 
 
+def rubbing_more(growth: float) -> Hidden:
+    """Dry friction of 120 N whose law is not ours: so much more at full pressure."""
+
+    def lost(moment: Moment) -> Array:
+        slides = np.ptp(moment.contraction) > 0
+        grown = 1 + growth * moment.pressure / 500e3
+        return rubbing(120.0)(moment) * slides * grown
+
+    return lost
+
+
 def restless(hidden: Hidden) -> Hidden:
     """The same, and waves of 25 N that no library holds."""
     return lambda moment: hidden(moment) + 25.0 * np.sin(moment.time)

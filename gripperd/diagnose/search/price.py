@@ -23,7 +23,7 @@ an effect of its own, be it ever so small. [-]"""
 MENDED = 0.05
 """Share below which it mends a form, be it ever so large. [-]"""
 LEAST_OWN = 100.0
-"""Fall of chi² that bending leaves at least of an effect of its own. [-]"""
+"""Fall of chi² that each effect that bends leaves at least of one of its own. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
 MUCH = 0.4
@@ -92,20 +92,22 @@ def worth(
 def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:
     """Whether an addition mends no form before it: what it closes stays closed.
 
-    Those forms bend that act where it gains. One that has not paid its price must keep
-    most of its gain, and leave but noise. Known to look like one that bends, it must
-    keep most of it as well.
+    Those forms bend that act where it gains. One that has not paid its price must leave
+    but noise; if it does so only with forms that bend, it must keep most of its gain.
+    Known to look like one that bends, it must keep most of it as well.
     """
     further = best.fit.cost - larger.fit.cost
     gained = _gained(problem, best, larger)
     there = {one.name for one in best.candidates if acts_on(problem, one) & gained}
     bending = [name for name in bendable(best) if name in there & {*larger.names}]
     before, after = (bent(problem, one, bending) for one in (best, larger))
-    least = LEAST_OWN if bending else 2 * LEAST_MORE
-    kept = MENDED if paid and not _looks_like(best, larger, bending) else OWN
+    least = LEAST_OWN * len(bending) or 2 * LEAST_MORE
+    noise = larger.fit.samples + (2 * larger.fit.samples) ** 0.5
+    sure = paid or larger.fit.cost < noise <= before
+    kept = MENDED if sure and not _looks_like(best, larger, bending) else OWN
     if before - after <= max(least, kept * further):
         return False
-    return paid or after - larger.fit.samples < (2 * larger.fit.samples) ** 0.5
+    return paid or after < noise
 
 
 def _gained(problem: Problem, best: Rival, larger: Rival) -> frozenset[Signal]:

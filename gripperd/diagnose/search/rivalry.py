@@ -14,7 +14,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.preference import preferred, strained
-from gripperd.diagnose.search.price import acts_on
+from gripperd.diagnose.search.price import acts_on, worth
 
 EXCHANGES = 2
 CHALLENGERS = 4
@@ -62,10 +62,15 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
     best = found.best
     challenged = _all_challenged(found.problem, best, listed)
     for _ in range(EXCHANGES):
-        rivals = [rival for _, rivals in challenged for rival in rivals]
-        champion = preferred(found.problem, rivals) if rivals else best
-        if champion.evidence <= best.evidence + EVEN:
+        ahead = [
+            rival
+            for bare, rivals in challenged
+            for rival in rivals
+            if rival.evidence > best.evidence + EVEN and _pays(found, bare, rival)
+        ]
+        if not ahead:
             break
+        champion = preferred(found.problem, ahead)
         if found.problem.is_hot and not _sounder(found.problem, best, champion):
             break
         best = champion
@@ -78,6 +83,11 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
         challenged = _all_challenged(found.problem, best, listed)
     places = tuple(Place(without, tuple(rivals)) for without, rivals in challenged)
     return standing_in(found, Contest(best, places))
+
+
+def _pays(found: Found, bare: Rival, rival: Rival) -> bool:
+    """Whether what takes a place would be believed there, had nobody been in it."""
+    return worth(found.problem, found.null, bare, rival, found.threshold)
 
 
 def standing_in(found: Found, told: Contest) -> Contest:

@@ -26,13 +26,13 @@ from tests.diagnose.small import (
     LINKAGE,
     MODEL,
     Hidden,
-    Moment,
     altered,
     moments,
     pinned,
     recording,
     restless,
     rubbing,
+    rubbing_more,
     threshold,
     with_grip,
     without,
@@ -118,22 +118,11 @@ def test_a_drift_that_shows_in_the_grip_alone_is_held_against_the_grip() -> None
     assert worth(problem, null, null, best, 20.0)
 
 
-def _rubs_more(growth: float) -> Hidden:
-    """Dry friction of 120 N whose law is not ours: so much more at full pressure."""
-
-    def lost(moment: Moment) -> Array:
-        slides = np.ptp(moment.contraction) > 0
-        grown = 1 + growth * moment.pressure / 500e3
-        return rubbing(120.0)(moment) * slides * grown
-
-    return lost
-
-
 @pytest.mark.parametrize(
     ("hidden", "first", "further", "worth_it"),
     [
         (_stretches_and_rubs(7.0), THRESHOLD, RUB, True),
-        (_rubs_more(0.3), RUB, GROWS, False),
+        (rubbing_more(0.3), RUB, GROWS, False),
     ],
 )
 def test_what_closes_little_must_not_be_what_bends_the_first(
@@ -148,7 +137,7 @@ def test_what_closes_little_must_not_be_what_bends_the_first(
 
 
 def test_what_but_bends_the_first_may_close_as_much_as_it_will() -> None:
-    problem, (null, best, larger) = _fits(recording(_rubs_more(6.0)), RUB, GROWS)
+    problem, (null, best, larger) = _fits(recording(rubbing_more(6.0)), RUB, GROWS)
     closed = null.fit.cost - larger.fit.cost
     assert best.fit.cost - larger.fit.cost > 0.06 * closed
     assert not worth(problem, null, best, larger, 20.0)
@@ -177,6 +166,31 @@ def test_of_what_a_known_double_closes_bending_the_first_may_not_take_most(
     monkeypatch.setattr(price, "bent", lambda _, rival, names: 0.4 * rival.fit.cost)
     monkeypatch.setattr(ThresholdPressure, "confused_with", first)
     monkeypatch.setattr(CoulombFriction, "confused_with", further)
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(
+    ("left", "worth_it"), [(0.5, True), (0.01, False), (-0.5, False)]
+)
+def test_what_leaves_noise_where_bending_leaves_more_need_not_keep_half(
+    monkeypatch: pytest.MonkeyPatch, left: float, *, worth_it: bool
+) -> None:
+    """An addition that closes little takes all there is above the noise.
+
+    Of its gain bending leaves two fifths. That is believed if bending the first alone
+    leaves more than noise, by half the samples; not if it leaves noise too.
+    """
+    problem, (null, best, larger) = _fits(
+        recording(_stretches_and_rubs(7.0)), THRESHOLD, RUB
+    )
+    samples, further = larger.fit.samples, best.fit.cost - larger.fit.cost
+    assert further < 0.06 * (null.fit.cost - larger.fit.cost)
+    assert larger.fit.cost < samples + (2 * samples) ** 0.5
+    assert 0.4 * further > 100.0
+    unbent = {1: (1 + left) * samples, 2: (1 + left) * samples - 0.4 * further}
+    monkeypatch.setattr(price, "bent", lambda _, rival, __: unbent[len(rival.names)])
+    if left > 0.1:
+        unbent[2] = samples
     assert worth(problem, null, best, larger, 20.0) is worth_it
 
 

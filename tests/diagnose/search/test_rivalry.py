@@ -16,6 +16,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_gain import ForceSensorGain
+from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model.effect import Signal
@@ -29,6 +30,7 @@ from tests.diagnose.small import (
     recording,
     restless,
     rubbing,
+    rubbing_more,
     textbook,
     threshold,
 )
@@ -52,6 +54,7 @@ RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
 TWIN = Candidate("twin", Twin(magnitude=20.0))
 BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
 LATE = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
+GROWS = Candidate("pressure_friction", PressureFriction())
 GAIN = Candidate("force_sensor_gain", ForceSensorGain(error=0.02))
 BORE = Candidate("parameter:muscle.diameter", None, 0)
 
@@ -100,6 +103,20 @@ def test_a_better_rival_takes_the_place_of_a_wrong_choice(problem: Problem) -> N
     listed = (RUB, BIAS)
     wrong = _believing(_found(problem, *listed), BIAS)
     assert contest(wrong, listed).best.names == ("coulomb_friction",)
+
+
+def test_a_better_rival_that_but_mends_the_rest_takes_no_place() -> None:
+    """A friction of another law than ours, and beside it a bias.
+
+    One that grows with the pressure would fit far better than the bias, but is of no
+    worth beside the friction.
+    """
+    problem = problem_of(recording(rubbing_more(0.3)), MODEL, {})
+    listed = (RUB, GROWS, BIAS)
+    wrong = _believing(_found(problem, RUB), RUB, BIAS)
+    better = fitted(wrong.problem, RUB, GROWS)
+    assert better.evidence > wrong.best.evidence + 100.0
+    assert "pressure_friction" not in contest(wrong, listed).best.names
 
 
 def test_what_the_rest_has_made_idle_is_dropped(problem: Problem) -> None:
