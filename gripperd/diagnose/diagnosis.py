@@ -43,9 +43,9 @@ from gripperd.diagnose.verdict.extrapolation import (
     extrapolation,
     swept,
 )
+from gripperd.diagnose.verdict.foil import foil
 from gripperd.diagnose.verdict.gap import Gap, gaps
 from gripperd.diagnose.verdict.judged import bearing_signal, main_signal
-from gripperd.diagnose.verdict.jump import jump
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
 from gripperd.diagnose.verdict.refuted import refuted
@@ -192,7 +192,7 @@ def _told(
     # The noise of a table is not known, so what is left cannot be held against it.
     judge = found.problem if is_table(train.courses) else train
     conclusion = conclude(judge, found, best)
-    slip = jump(found, best)
+    foiled = foil(found, best)
     start, base, nearest = (
         with_own_sign(parts, point)
         for point in (
@@ -211,9 +211,9 @@ def _told(
     bearing = bearing_signal(train, best, main, judged)
     gap = judged[bearing] if bearing else None
     spoilt = any(one.is_spoilt for one in judged.values())
-    against = slip or spoilt or refuted(parts, inside, found, best)
+    against = foiled or spoilt or refuted(parts, inside, found, best)
     if against or (gap and not gap.confirms(effects)):
-        is_open = bool(slip) or (gap is not None and gap.is_open)
+        is_open = bool(foiled) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
@@ -233,7 +233,7 @@ def _told(
         held_out=swept(parts, inside),
         extrapolation=extrapolation(parts, outside, points, seed),
         proposal=None if nothing else _next(found.problem, best),
-        signature=signature(train, best, conclusion, slip) if unexplained else (),
+        signature=signature(train, best, conclusion, foiled) if unexplained else (),
         corrections=tuple(offers(parts, left, base, nearest)) if unexplained else (),
         untested=untested | dict.fromkeys(found.faint, "leaves no trace here"),
         seed=seed,

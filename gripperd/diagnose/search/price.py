@@ -65,7 +65,7 @@ def worth(
     if gain <= threshold or not is_fault(problem, larger):
         return False
     if not best.candidates:
-        return _size(problem, larger, larger.names, problem.signals) >= SEEN
+        return size_of(problem, larger, larger.names, problem.signals) >= SEEN
     new = [one for one in larger.candidates if one.name not in best.names]
     signals = {signal for one in new for signal in acts_on(problem, one)}
     hot = problem.temperature(signals) > 1
@@ -139,10 +139,10 @@ def is_fault(problem: Problem, rival: Rival) -> bool:
         return True
     own = Signal.FORCE in problem.signals
     signals = [Signal.FORCE] if own else problem.signals
-    return _size(problem, rival, ["force_sensor_drift"], signals) >= RAMP
+    return size_of(problem, rival, ["force_sensor_drift"], signals) >= RAMP
 
 
-def _size(
+def size_of(
     problem: Problem, rival: Rival, names: Sequence[str], signals: Collection[Signal]
 ) -> float:
     """How much some effects change most in some signals, of full scale.

@@ -3,7 +3,7 @@
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.conclude import Conclusion
-from gripperd.diagnose.verdict.jump import Jump
+from gripperd.diagnose.verdict.foil import Foil
 from gripperd.diagnose.verdict.key import plain
 from gripperd.diagnose.verdict.structure import Structure
 from gripperd.model.effect import Signal
@@ -15,17 +15,16 @@ LINE = 0.5
 
 
 def signature(
-    problem: Problem, best: Contest, conclusion: Conclusion, slip: Jump | None = None
+    problem: Problem, best: Contest, conclusion: Conclusion, foil: Foil | None = None
 ) -> tuple[str, ...]:
     """Describe what is left, most telling first."""
     words = [f"share of the gap that known effects explain: {conclusion.share:.0%}"]
     if best.best.names:
         nearest = ", ".join(map(plain, best.best.names))
         words.append(f"nearest known effects: {nearest}")
-    if slip:
+    if foil:
         # By the clock of the file, as everything else that is told of it.
-        at = problem.courses[0].start + slip.at
-        words.append(f"force: jumps by {slip.size:+.1f} N at {at:.0f} s, and stays")
+        words.append(f"force: {foil.told(problem.courses[0].start)}")
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)

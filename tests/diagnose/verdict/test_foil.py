@@ -1,0 +1,135 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.rivalry import contest
+from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.foil import Foil, Jump, Snap, WarmCell, foil
+from gripperd.effects.fatigue import Fatigue
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.temperature_stiffness import TemperatureStiffness
+from gripperd.model.effect import Effect
+from gripperd.model.track import Array
+from tests.diagnose.small import (
+    MODEL,
+    Hidden,
+    Moment,
+    altered,
+    moments,
+    pinned,
+    recording,
+)
+
+OPEN = ("muscle.diameter", "zero.force")
+DRIFT = ForceSensorDrift(rate=0.05)
+SLIPPED_AT = 300.0
+
+
+def _slipped(moment: Moment) -> Array:
+    return np.where(moment.time > SLIPPED_AT, -40.0, 0.0)
+
+
+def _drifted(moment: Moment) -> Array:
+    return -0.08 * moment.time
+
+
+def _seen(
+    told: Recording, named: Effect = DRIFT, *also_open: str
+) -> tuple[Problem, Foil | None]:
+    problem = pinned(problem_of(told, MODEL, {}), *OPEN, *also_open)
+    listed = (Candidate(named.name, named),)
+    found = search(problem, listed, np.random.default_rng(0))
+    return problem, foil(found, contest(found, listed))
+
+
+def test_a_mount_that_slipped_once_is_no_drift() -> None:
+    problem, seen = _seen(recording(_slipped))
+    assert isinstance(seen, Jump)
+    assert seen.size == pytest.approx(-40.0, abs=4.0)
+    before, after = (
+        [bool((course.time > t).all()) for course in problem.courses]
+        for t in (SLIPPED_AT, seen.at)
+    )
+    assert before == after
+
+
+def test_it_slipped_as_well_where_the_clock_began_long_ago() -> None:
+    late = altered(recording(_slipped), moments(), "time", lambda time: time + 1.7e9)
+    seen, known = (_seen(told)[1] for told in (late, recording(_slipped)))
+    assert isinstance(seen, Jump)
+    assert isinstance(known, Jump)
+    assert seen.at == pytest.approx(known.at)
+    assert seen.size == pytest.approx(known.size, rel=1e-3)
+
+
+def test_a_drift_is_no_jump() -> None:
+    assert _seen(recording(_drifted))[1] is None
+
+
+def test_where_nothing_is_named_nothing_is_foiled() -> None:
+    assert _seen(recording())[1] is None
+
+
+def test_the_truth_behind_a_jump_is_the_reading_without_it() -> None:
+    problem, seen = _seen(recording(_slipped))
+    assert isinstance(seen, Jump)
+    track = problem.tracks(problem.model)[0]
+    pull = np.full(track.time.size, 100.0)
+    read = seen.along(pull, track, seen.rest())
+    assert seen.truth(read, track) == pytest.approx(pull)
+
+
+def test_what_sensors_drift_is_no_jump(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Were it usual that sensors drift by 60 of the 1200 N.
+    monkeypatch.setattr("gripperd.diagnose.verdict.foil.SEEN", 0.05)
+    assert _seen(recording(_slipped))[1] is None
+
+
+def _snapped(moment: Moment) -> Array:
+    return -0.04 * moment.pressure * moment.pull_area * (moment.time > SLIPPED_AT)
+
+
+def _tired(moment: Moment) -> Array:
+    """A loss of the pull that goes on, in proportion to the clock."""
+    return -0.06 * moment.pressure * moment.pull_area * moment.time / 690.0
+
+
+def test_strands_that_broke_once_are_no_fatigue() -> None:
+    _, seen = _seen(recording(_snapped), Fatigue(loss=0.002))
+    assert isinstance(seen, Snap)
+    assert seen.loss == pytest.approx(0.04, abs=0.004)
+    assert seen.told(10.0).endswith("of the ideal pull from 309 s on")
+
+
+def test_fatigue_is_no_snap() -> None:
+    assert _seen(recording(_tired), Fatigue(loss=0.002))[1] is None
+
+
+def _warmed(told: Recording, extra: Hidden) -> Recording:
+    """The same with sweeps at 5 °C and 35 °C, and a force that is there only then."""
+    warmth = {"d": 278.15, "e": 308.15, "b2": 308.15}
+    happened = moments()
+    runs = []
+    for run in told.runs:
+        warm = warmth.get(run.name, 293.15)
+        force = run.columns["force"] + (warm - 293.15) * extra(happened[run.name])
+        level = np.full(len(run), warm)
+        columns = {**run.columns, "force": force, "temperature": level}
+        runs.append(Run(run.name, columns, run.kind))
+    return Recording(told.name, told.digest, tuple(runs))
+
+
+def test_a_zero_that_goes_with_the_temperature_is_no_stiffness() -> None:
+    told = _warmed(recording(), lambda moment: np.full(moment.time.size, 1.5))
+    _, seen = _seen(told, TemperatureStiffness(modulus=0.005), "zero.contraction")
+    assert isinstance(seen, WarmCell)
+    assert seen.rate == pytest.approx(1.5, abs=0.15)
+
+
+def test_a_stiffness_that_goes_with_the_temperature_is_no_zero() -> None:
+    told = _warmed(recording(), lambda moment: -20.0 * moment.contraction)
+    named = TemperatureStiffness(modulus=0.005)
+    assert _seen(told, named, "zero.contraction")[1] is None
