@@ -31,7 +31,7 @@ class Creep(InMuscle):
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
     when the bladder creeps under pressure alone. Once settled it adds nothing. A record
-    that begins under pressure may begin settled, or as the pressure comes.
+    that begins under pressure goes on from a wait under it, which may have been long.
     """
 
     name: ClassVar[str] = "creep"
@@ -58,9 +58,10 @@ class Creep(InMuscle):
     """Shortest time constant: rubber creeps from the first seconds on. [s]"""
     leverage: float = shape(unit=None, starts=(1.0, 0.0), low=-0.5, high=1.5)
     """How much of the loss of leverage with contraction the creep shares. [-]"""
-    fresh: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0, switches=True)
-    """Share of the pull that is new where a record begins: 1 after a rest vented,
-    0 where all has settled. [-]"""
+    fresh: float = shape(unit=None, starts=(0.0, 0.7), low=0.0, high=1.0, switches=True)
+    """Share that the middle term has still to come where a record begins under
+    pressure: 1 as the pressure comes, ``exp(-t / 6 tau)`` after a wait, 0 where all has
+    settled. The others have waited as long. [-]"""
 
     def rest(self) -> Array:
         """Three lags that have not begun."""
@@ -73,7 +74,8 @@ class Creep(InMuscle):
         load = np.asarray(track.pressure * area)
         late = np.zeros_like(load)
         if np.isnan(memory).any() and load.size:
-            memory[:] = (1 - self.fresh) * load[0]
+            left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
+            memory[:] = (1 - left) * load[0]
         for index, share in enumerate((self.fast, self.medium, self.slow)):
             time = self.time * SPACING**index
             state = memory[index : index + 1]

@@ -37,13 +37,19 @@ def test_after_a_step_it_comes_with_three_time_constants(muscle: Muscle) -> None
     assert late(muscle, CREEP, pressure)[1:] == pytest.approx(expected, rel=1e-6)
 
 
-@pytest.mark.parametrize("fresh", [0.0, 0.3, 1.0])
-def test_a_record_under_pressure_begins_as_fresh_as_it_is(
-    muscle: Muscle, fresh: float
+@pytest.mark.parametrize("waited", [0.0, 4.0, 60.0])
+def test_a_record_under_pressure_goes_on_where_the_wait_before_it_ended(
+    muscle: Muscle, waited: float
 ) -> None:
     pull = 400e3 * float(muscle.pull_area(0.0))
-    found = late(muscle, replace(CREEP, fresh=fresh), 400e3)
-    assert found == pytest.approx(fresh * left_of(pull), rel=1e-6, abs=1e-9)
+    found = late(muscle, replace(CREEP, fresh=np.exp(-waited / 12.0)), 400e3)
+    # What the same step would have left of it so much later.
+    expected = pull * np.exp(-(TIME[:, None] + waited) / TIMES) @ SHARES
+    assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_what_has_settled_stays(muscle: Muscle) -> None:
+    assert late(muscle, replace(CREEP, fresh=0.0), 400e3) == pytest.approx(0.0)
 
 
 def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:

@@ -19,7 +19,7 @@ RESOLUTION = 1e-4
 REVERSIBLE = 0.003
 """Difference between a rising and a falling reading of the grip, of the largest, that
 says nothing of the joints: reversibility of a transducer of class 1, ISO 376. [-]"""
-QUIETER = 0.5
+QUIETER = 0.1
 """Share of a noise from which neighbours in a residual know better: it is told from
 readings that may rise too fast for them. [-]"""
 TURNS = 3.0
