@@ -13,7 +13,7 @@ from gripperd.diagnose.noise.trend import RARE, cheapest, filtered, smoothed
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
-STIFFNESSES = 10.0 ** np.arange(-8.0, 5.0)
+STIFFNESSES = 10.0 ** np.arange(-8.0, 11.0)
 """Spectral densities of the slope tried, in units of ``noise² / s³``."""
 LEAP = 5.0
 """Standard deviations from what was foreseen at which a column may have leapt. [-]"""
