@@ -25,6 +25,8 @@ error of root 2 of it, which is as much again. [nat]"""
 EVEN = 0.1
 """A rival ahead by less has only been fitted a little further, and takes no place: two
 processors round differently. [nat]"""
+ALIKE = 0.05
+"""Share of what a name explains in its signals that a rival may leave there. [-]"""
 MISSHAPED = 0.06
 """Share of the first gap within which a difference of misfit says only that neither
 formula is that of nature. [-]"""
@@ -101,7 +103,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
             rival
             for rival in rivals
             if best.evidence - rival.evidence < margin
-            and _stands_in(found.problem, best, index, rival, margin)
+            and _stands_in(found.problem, best, index, place.without, rival, margin)
         )
         places.append(replace(place, rivals=tuple(alike)))
     return Contest(best, tuple(places))
@@ -137,12 +139,20 @@ def _sounder(problem: Problem, best: Rival, champion: Rival) -> bool:
 
 
 def _stands_in(
-    problem: Problem, best: Rival, index: int, rival: Rival, margin: float
+    problem: Problem,
+    best: Rival,
+    index: int,
+    without: Rival,
+    rival: Rival,
+    margin: float,
 ) -> bool:
     """Whether a rival explains the same signals, not others as much better."""
     signals = acts_on(problem, best.candidates[index])
-    lost = sum(rival.fit.misfits[s] - best.fit.misfits[s] for s in signals)
-    return 0.5 * lost < SURE + margin
+    own, other, bare = (
+        sum(one.fit.misfits[signal] for signal in signals)
+        for one in (best, rival, without)
+    )
+    return 0.5 * (other - own) < SURE + margin + 0.5 * ALIKE * (bare - own)
 
 
 def _challengers(

@@ -10,7 +10,13 @@ from gripperd.diagnose.fit.rival import Rival, added
 from gripperd.diagnose.fit.temperature import louder
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import contest
+from gripperd.diagnose.search.rivalry import (
+    SURE,
+    Contest,
+    Place,
+    contest,
+    standing_in,
+)
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
@@ -149,6 +155,21 @@ def test_rivals_come_best_first_and_none_beats_the_best(problem: Problem) -> Non
     assert len(evidence) == 2
     assert evidence == sorted(evidence, reverse=True)
     assert max(evidence) <= decided.best.evidence + 1e-6
+
+
+@pytest.mark.parametrize(("share", "kept"), [(0.04, True), (0.06, False)])
+def test_a_rival_stands_in_that_leaves_a_twentieth_where_its_prior_asks_less(
+    problem: Problem, share: float, *, kept: bool
+) -> None:
+    found = _found(problem, RUB)
+    best, bare = found.best, found.null
+    force = Signal.FORCE
+    gained = bare.fit.misfits[force] - best.fit.misfits[force]
+    assert 0.01 * gained > 4 * SURE
+    left = {**best.fit.misfits, force: best.fit.misfits[force] + share * gained}
+    rival = Rival((TWIN,), replace(best.fit, misfits=left))
+    told = standing_in(found, Contest(best, (Place(bare, (rival,)),)))
+    assert told.equivalents == ((("twin",) if kept else ()),)
 
 
 def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
