@@ -43,6 +43,7 @@ class Creep(InMuscle):
     confused_with: ClassVar[tuple[str, ...]] = (
         "valve_lag", "force_sensor_drift", "leak", "presliding_hysteresis",
     )  # fmt: skip
+    one_sided: ClassVar[bool] = True
     remedy: ClassVar[str] = (
         "wait until the grip has settled before judging it, or press a little harder"
         " at first"

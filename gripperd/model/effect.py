@@ -84,6 +84,8 @@ class Effect(Protocol):
     """Whether it has no sign without travel."""
     timed: ClassVar[bool]
     """Whether time or order counts, beside what it remembers."""
+    one_sided: ClassVar[bool]
+    """Whether all its amplitudes have one sign, be it this or that."""
     basis: ClassVar[str]
     """Name of the effect it departs from, empty for none."""
 

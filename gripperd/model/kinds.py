@@ -16,6 +16,7 @@ class Memoryless:
     __slots__ = ()
     travels: ClassVar[bool] = False
     timed: ClassVar[bool] = False
+    one_sided: ClassVar[bool] = False
     basis: ClassVar[str] = ""
 
     def rest(self) -> Array:

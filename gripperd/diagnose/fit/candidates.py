@@ -142,9 +142,19 @@ def forms(kind: type[Effect]) -> list[Effect]:
     shapes |= {name: one.choices for name, one in known.items() if one.choices}
     typical = {name: one.scale for name, one in known.items() if one.is_amplitude}
     return [
-        replace(kind(), **typical, **dict(zip(shapes, values, strict=True)))
+        replace(
+            kind(),
+            **{name: sign * scale for name, scale in typical.items()},
+            **dict(zip(shapes, values, strict=True)),
+        )
+        for sign in ((1, -1) if kind.one_sided else (1,))
         for values in product(*shapes.values())
     ]
+
+
+def side(effect: Effect) -> int:
+    """Sign of the amplitudes of an effect that is one-sided."""
+    return -1 if sum(getattr(effect, name) for name in amplitudes(effect)) < 0 else 1
 
 
 def amplitudes(effect: Effect) -> list[str]:

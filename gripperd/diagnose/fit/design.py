@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.diagnose.fit.candidates import Candidate, amplitudes
+from gripperd.diagnose.fit.candidates import Candidate, amplitudes, side
 from gripperd.diagnose.fit.gram import Fit, Gram
 from gripperd.diagnose.residuals.constants import NUISANCE
 from gripperd.diagnose.residuals.point import FREED, Point
@@ -194,6 +194,8 @@ def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:
     that a vented muscle would have been sucked empty.
     """
     known = parameters(effect)[name]
+    if effect.one_sided and known.is_amplitude:
+        return (known.low, 0.0) if side(effect) < 0 else (0.0, known.high)
     highest = problem.highest.get(effect.signal)
     scale = problem.full_scale.get(effect.signal, highest)
     if effect.stage is Stage.SENSOR and name == "error":

@@ -7,11 +7,18 @@ import numpy as np
 from scipy.optimize import isotonic_regression
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.smoothing import LEAP, Smooth, smooth
+from gripperd.diagnose.noise.smoothing import (
+    LEAP,
+    OF_LENGTH,
+    STIFFNESSES,
+    Smooth,
+    smooth,
+)
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.travel import contracting, leaning, reversal
+from gripperd.model.track import Array
 
 SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
 QUICK = 0.04
@@ -38,7 +45,12 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
     """
     time = sweep.columns["time"]
     found = {
-        name: smooth(time, sweep.columns[name], noises[name].slow_variance)
+        name: smooth(
+            time,
+            sweep.columns[name],
+            noises[name].slow_variance,
+            tried=_tried(name),
+        )
         for name in SMOOTHED
         if sweep.has(name)
     }
@@ -56,11 +68,15 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
     return found
 
 
+def _tried(name: str) -> Array:
+    return OF_LENGTH if name == "contraction" else STIFFNESSES
+
+
 def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
     """Contraction whose corners stay sharp, at the price of some noise."""
     variance = noises["contraction"].slow_variance
     time, contraction = sweep.columns["time"], sweep.columns["contraction"]
-    return smooth(time, contraction, variance, SUPPLE)
+    return smooth(time, contraction, variance, SUPPLE, tried=OF_LENGTH)
 
 
 def _steady(known: Smooth) -> Smooth:
@@ -92,7 +108,7 @@ def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
     A trend that is supple enough for a step leaves the noise in the rests beside it.
     """
     column, time = sweep.columns[name], sweep.columns["time"]
-    leapt = smooth(time, column, plain.variance, leap=LEAP)
+    leapt = smooth(time, column, plain.variance, leap=LEAP, tried=_tried(name))
     likelier = leapt.likelihood > plain.likelihood
     return leapt if leapt.leapt and likelier else plain
 

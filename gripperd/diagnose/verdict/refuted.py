@@ -47,6 +47,9 @@ def refuted(
     told = with_own_sign(parts, best.best.fit.point)
     names = []
     for candidate, place in zip(best.best.candidates, best.places, strict=True):
+        # Far above the noise one constant stands in for another.
+        if candidate.effect is None and found.problem.is_hot:
+            continue
         without = with_own_sign(parts, place.without.fit.point)
         changed, gained = _compared(test, without, told)
         if changed > TELLING and gained < -AGAINST * changed:

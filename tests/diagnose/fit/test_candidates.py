@@ -9,7 +9,9 @@ from gripperd.diagnose.fit.candidates import (
     forms,
     is_exact,
     is_plain,
+    side,
 )
+from gripperd.diagnose.fit.design import limits
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
@@ -99,7 +101,7 @@ def test_an_effect_that_the_model_has_is_no_candidate() -> None:
 @pytest.mark.parametrize("name", EFFECTS)
 def test_the_forms_of_an_effect_are_all_combinations_of_its_starts(name: str) -> None:
     known = parameters(EFFECTS[name])
-    wanted = 1
+    wanted = 2 if EFFECTS[name].one_sided else 1
     for one in known.values():
         wanted *= len(one.starts or one.choices or (None,))
     found = forms(EFFECTS[name])
@@ -114,7 +116,20 @@ def test_every_form_acts_within_its_bounds(name: str) -> None:
                 continue
             value = getattr(form, field)
             assert one.low <= value <= one.high
-            assert value > 0 or not one.is_amplitude
+            assert value != 0 or not one.is_amplitude
+
+
+def test_a_one_sided_effect_is_tried_to_either_side_and_stays_there(
+    blank: Problem,
+) -> None:
+    sides = {1: 0, -1: 0}
+    for form in forms(Creep):
+        sizes = {getattr(form, name) > 0 for name in amplitudes(form)}
+        assert len(sizes) == 1
+        sides[side(form)] += 1
+        low, high = limits(blank, form, "slow")
+        assert (low, high) == ((0.0, 0.15) if side(form) > 0 else (-0.15, 0.0))
+    assert sides[1] == sides[-1] == len(forms(Creep)) / 2
 
 
 def test_amplitudes_are_what_an_effect_is_proportional_to() -> None:

@@ -55,7 +55,7 @@ def test_what_acts_in_every_sweep_is_borne_out() -> None:
 def test_what_fits_noise_is_not_borne_out() -> None:
     problem = _problem(nothing)
     small = polished(problem, _with(problem))
-    large = polished(problem, _with(problem, Creep()))
+    large = polished(problem, _with(problem, Creep(slow=-0.01)))
     assert large.misfits[Signal.FORCE] < small.misfits[Signal.FORCE]
     assert not bears_out(problem, small, large, FORCE)
 

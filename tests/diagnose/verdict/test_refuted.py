@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
@@ -11,6 +12,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.verdict.refuted import refuted
 from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.model.effect import Signal
 
 
 @pytest.fixture
@@ -60,3 +62,18 @@ def test_misfit_that_nothing_reaches_is_noise_to_it(
     hot = replace(told.found, problem=replace(problem, noises=loud))
     parts = split(blank)
     assert refuted(parts, parts.test, hot, blank_told) == ()
+
+
+@pytest.mark.parametrize("warm", [1.0, 2.0])
+def test_far_above_the_noise_no_constant_is_refuted(
+    blank: Problem, told: Diagnosis, blank_told: Contest, warm: float
+) -> None:
+    best = blank_told.best
+    bore = replace(best, candidates=(Candidate("parameter:muscle.diameter", None, 0),))
+    found = replace(
+        told.found,
+        problem=replace(told.found.problem, temperatures={Signal.FORCE: warm}),
+    )
+    parts = split(blank)
+    names = refuted(parts, parts.test, found, replace(blank_told, best=bore))
+    assert bool(names) is (warm == 1.0)
