@@ -1,7 +1,9 @@
 import multiprocessing
 import os
 import signal
+import time
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -62,6 +64,39 @@ def test_what_goes_wrong_in_another_process_is_raised_here() -> None:
     lost: list[int] = []
     with pytest.raises(LookupError, match="no such piece"):
         side_by_side(failing, [1, 2], 2)
+
+
+def test_a_copy_takes_nothing_more_once_its_original_is_gone(tmp_path: Path) -> None:
+    """One that is killed amid four pieces, of which its copy has one in hand."""
+    done = tmp_path / "done"
+    fork = multiprocessing.get_context("fork")
+    both = fork.Barrier(2)
+
+    def original() -> None:
+        here = os.getpid()
+
+        def slow(piece: int) -> None:
+            if piece < 2:
+                both.wait(timeout=60)
+            if os.getpid() == here:
+                os.kill(here, signal.SIGKILL)
+            while os.getppid() == here:
+                time.sleep(0.01)
+            with done.open("a") as file:
+                file.write(f"{piece} ")
+
+        side_by_side(slow, [0, 1, 2, 3], 2)
+
+    parent = fork.Process(target=original)
+    parent.start()
+    parent.join()
+    assert parent.exitcode == -signal.SIGKILL
+    deadline = time.monotonic() + 60
+    while not (done.exists() and done.read_text()) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    # Whoever goes on does so at once: a second is ages.
+    time.sleep(1.0)
+    assert len(done.read_text().split()) == 1
 
 
 def meeting() -> Callable[[], None]:
