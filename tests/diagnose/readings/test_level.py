@@ -35,6 +35,16 @@ def test_pressure_keeps_the_corner_of_its_command() -> None:
     assert course.level("pressure")[CORNER] == pytest.approx(500e3, abs=1e3)
 
 
+def test_a_length_that_is_moved_quickly_is_followed() -> None:
+    # Steps of 3 % in a tenth of a second, read 40 times a second.
+    time = np.arange(0.0, 4.0, 0.025)
+    knots = np.array([0.0, 0.5, 0.6, 1.5, 1.6, 2.5, 2.6, 4.0])
+    way = np.interp(time, knots, [0.0, 0.0, 0.03, 0.03, 0.06, 0.06, 0.09, 0.09])
+    (course,) = cut(run(time=time, contraction=way + noise(time.size, 2e-4)))
+    assert np.sqrt(np.mean((course.level("contraction") - way) ** 2)) < 6e-4
+    assert np.sqrt(np.mean((course.level("length") - way) ** 2)) < 6e-4
+
+
 @pytest.mark.parametrize("half", [5e3, 8e3, 12e3, 20e3])
 @pytest.mark.parametrize("came", [-1.0, 0.0, 1.0])
 def test_pressure_keeps_the_corners_of_a_dead_band(half: float, came: float) -> None:
