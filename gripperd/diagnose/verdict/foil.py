@@ -116,8 +116,9 @@ class Snap(InMuscle):
 
     def told(self, start: float) -> str:
         """Say what it does, by a clock that began some time before. [s]."""
+        way = "weaker" if self.loss > 0 else "stronger"
         at = f"from {start + self.at:.0f} s on"
-        return f"less by {self.loss:.1%} of the ideal pull {at}"
+        return f"{way} by {abs(self.loss):.1%} of the ideal pull {at}"
 
 
 Foil: TypeAlias = Jump | WarmCell | Snap

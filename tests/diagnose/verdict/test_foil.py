@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -101,7 +103,8 @@ def test_strands_that_broke_once_are_no_fatigue() -> None:
     _, seen = _seen(recording(_snapped), Fatigue(loss=0.002))
     assert isinstance(seen, Snap)
     assert seen.loss == pytest.approx(0.04, abs=0.004)
-    assert seen.told(10.0).endswith("of the ideal pull from 309 s on")
+    assert seen.told(10.0) == "weaker by 4.1% of the ideal pull from 309 s on"
+    assert replace(seen, loss=-0.02).told(10.0).startswith("stronger by 2.0%")
 
 
 def test_fatigue_is_no_snap() -> None:
