@@ -20,8 +20,6 @@ CLEAR = 1.5
 """The same in sigma of the noise that was taken off. [-]"""
 STILL = 2.7
 """A sweep within a range of so many times that has no travel. [-]"""
-BRIEF = 5
-"""Samples of which a trend may miss the less beside a corner. [-]"""
 OVERSHOOT = 10
 """Samples of which a trend may swing past a corner. [-]"""
 STUCK = 0.06
