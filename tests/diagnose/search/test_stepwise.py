@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate, forms
+from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.stepwise import search
@@ -123,6 +124,8 @@ def test_of_a_table_every_form_is_fitted_in_full_of_sweeps_the_likeliest(
     fits = [fitted(found.problem, one).evidence for one in listed]
     # A search fits again when it knows how loud the rest is, and may come further.
     assert found.best.evidence >= max(fits) - 0.5
+    again = polished(found.problem, found.best.fit.point)
+    assert found.best.fit.cost == pytest.approx(again.cost, abs=0.5)
 
 
 @pytest.mark.parametrize(
