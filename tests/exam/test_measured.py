@@ -168,8 +168,13 @@ def test_steps_show_creep() -> None:
     found = _diagnosis("pam10_steps", "pam10")
     assert found.verdict in SETTLED, _said(found)
     assert "creep" in _names(found), _said(found)
+
+
+@pytest.mark.xfail(reason="1.6 N; constants stand in for each other", strict=True)
+def test_creep_closes_the_steps() -> None:
+    found = _diagnosis("pam10_steps", "pam10")
     # Without it 1.9 N are left on the run that took no part.
-    assert found.gaps[Signal.FORCE].after < 1.8
+    assert found.gaps[Signal.FORCE].after < 1.2
 
 
 def test_steps_show_a_slow_valve() -> None:
