@@ -109,6 +109,8 @@ def _number(entry: Named, name: str, key: Key) -> str:
     value, doubt = (
         fixed(size / key.factor, one.std / key.factor) for size in (one.value, one.std)
     )
+    if one.std == 0:
+        return f"{key.text} {value}, chosen"
     held = ", at its bound" if stopped(one) else ""
     return f"{key.text} {value} ± {doubt}{held}"
 

@@ -45,7 +45,11 @@ from gripperd.diagnose.verdict.extrapolation import (
 )
 from gripperd.diagnose.verdict.foil import foil
 from gripperd.diagnose.verdict.gap import Gap, gaps
-from gripperd.diagnose.verdict.judged import bearing_signal, main_signal
+from gripperd.diagnose.verdict.judged import (
+    bearing_signal,
+    main_signal,
+    open_signal,
+)
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
 from gripperd.diagnose.verdict.refuted import refuted
@@ -221,7 +225,8 @@ def _told(
         judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
     if nothing := conclusion.verdict is Verdict.NONE:
         entries = ()
-    unexplained = conclusion.verdict is Verdict.UNEXPLAINED
+    if unexplained := conclusion.verdict is Verdict.UNEXPLAINED:
+        main = open_signal(conclusion.signals, main, judged)
     left = conclusion.signals or ((main,) if main else ())
     return Diagnosis(
         recording=recording,

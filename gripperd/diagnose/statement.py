@@ -153,6 +153,8 @@ def _still_open(diagnosis: Diagnosis) -> str:
     if diagnosis.main is None:
         return ""
     gap = diagnosis.gaps[diagnosis.main]
+    if gap.left_open <= 1:
+        return f"; the {gap.signal.value} of sweeps it never saw does not show it"
     left, floor = (
         _size(gap.signal, size) for size in (gap.recalibrated, gap.noise_floor)
     )

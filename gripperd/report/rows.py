@@ -136,7 +136,7 @@ def _fitted(diagnosis: Diagnosis) -> list[Rival]:
 def numbers(diagnosis: Diagnosis) -> Table | None:
     """Everything fitted of what was found, with intervals."""
     rows = tuple(_numbers(diagnosis))
-    columns = ("of", "parameter", "value", "± 1 sigma", "95 % interval", "at bound")
+    columns = ("of", "parameter", "value", "± 1 sigma", "95 % interval")
     return Table("Parameters", columns, rows) if rows else None
 
 
@@ -150,14 +150,12 @@ def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
                 fixed(size / key.factor, one.std / key.factor)
                 for size in (one.value, one.std, *ends.tolist())
             )
-            yield (
-                public(entry.name),
-                key.text,
-                value,
-                doubt,
-                f"{low} to {high}",
-                "yes" if stopped(one) else "-",
-            )
+            # A law that was chosen for its 0 is not fitted.
+            if one.std == 0:
+                yield public(entry.name), key.text, value, "chosen", "-"
+                continue
+            held = ", at its bound" if stopped(one) else ""
+            yield public(entry.name), key.text, value, doubt, f"{low} to {high}{held}"
 
 
 def constants(diagnosis: Diagnosis) -> Table:

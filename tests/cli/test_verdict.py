@@ -28,11 +28,13 @@ def test_a_number_says_when_a_bound_holds_it(
     estimates = {
         "slow": Estimate(0.15, 0.0312, -0.15, 0.15),
         "time": Estimate(0.5359, 0.094),
+        "fresh": Estimate(0.0, 0.0),
     }
     entry = replace(found, parameters=estimates, p_value=0.0)
     text = told(replace(creep, named=(entry,)), capsys)
     assert "slow 0.150 ± 0.031, at its bound" in text
     assert "time_s 0.536 ± 0.094 " in text
+    assert "fresh 0, chosen" in text
     assert " < 1e-99 " in text
 
 

@@ -408,3 +408,17 @@ def test_where_something_slipped_it_is_never_nothing(
     found = diagnose(weak, MODEL, {}, {name: EFFECTS[name] for name in FEW})
     assert found.verdict is Verdict.UNEXPLAINED
     assert "force: jumps by -4.0 N at 200 s, and stays" in found.signature
+
+
+def test_what_is_unexplained_is_told_of_the_signal_in_which_it_shows() -> None:
+    """A name for the force, whose gap it closes, and a pressure that no name has."""
+    told = altered(
+        recording(threshold(25.0)),
+        moments(),
+        "current",
+        lambda current: current + 2e-4 * np.sin(1e4 * current),
+    )
+    found = _late(told)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert _names(found) == ["threshold_pressure"]
+    assert found.main is Signal.PRESSURE

@@ -125,6 +125,10 @@ def test_what_is_unexplained_says_how_much_is_left(creep: Diagnosis) -> None:
         " by 6.99 N."
     )
     assert summary(replace(told, main=None)).endswith("explains it.")
+    quiet = replace(told, gaps={Signal.FORCE: replace(gap, recalibrated=6.9)})
+    assert summary(quiet).endswith(
+        "explains it; the force of sweeps it never saw does not show it."
+    )
 
 
 def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:

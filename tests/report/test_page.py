@@ -162,8 +162,14 @@ def test_a_number_is_no_finer_than_its_doubt_nor_beyond_its_bound(
     (found,) = creep.named
     estimates = dict(found.parameters) | {"slow": Estimate(0.15, 0.0312, -0.15, 0.15)}
     text = written(replace(creep, named=(replace(found, parameters=estimates),)))
-    cells = ("slow", "0.150", "0.031", "0.089 to 0.150", "yes")
+    cells = ("slow", "0.150", "0.031", "0.089 to 0.150, at its bound")
     assert "".join(f"<td>{cell}</td>" for cell in cells) in text
+
+
+def test_what_was_chosen_has_no_interval(creep: Diagnosis) -> None:
+    entry = replace(creep.named[0], parameters={"fresh": Estimate(0.0, 0.0)})
+    text = written(replace(creep, named=(entry,)))
+    assert "<td>fresh</td><td>0</td><td>chosen</td><td>-</td>" in text
 
 
 def test_no_p_value_is_0(creep: Diagnosis) -> None:

@@ -1,6 +1,6 @@
 """Which of the signals that were left out the story is about, and which bear it out."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.price import acts_on
@@ -22,6 +22,24 @@ def main_signal(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
     if Signal.FORCE in judged and not effects:
         return Signal.FORCE
     return max(judged, key=lambda one: judged[one].left_open, default=None)
+
+
+def open_signal(
+    left: Collection[Signal], main: Signal | None, judged: Mapping[Signal, Gap]
+) -> Signal | None:
+    """Give the signal that nothing explains: the main one, if more than noise is left.
+
+    Parameters
+    ----------
+    left
+        Signals in which more than noise is left.
+    main, judged
+        What names were judged on, and how well.
+    """
+    if main in left:
+        return main
+    heard = [signal for signal in judged if signal in left]
+    return max(heard, key=lambda one: judged[one].left_open, default=main)
 
 
 def bearing_signal(
