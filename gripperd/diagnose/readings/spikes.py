@@ -24,6 +24,8 @@ AROUND = 8
 """Samples on each side that say which steps are usual."""
 OVER_STEP = 0.8
 """Height in the largest step around; what rings after a true step is lower."""
+AMONG = 3.0
+"""The same from which it is one however often the signal steps, as up a staircase."""
 COMMON = 0.05
 """A larger share of samples is not isolated; it is the signal."""
 CAUSES = frozenset({"current", "pressure", "contraction", "length", "opening", "force"})
@@ -85,6 +87,9 @@ def departures(values: Array, least: float, times: float) -> Mask:
     for width in range(1, WIDEST + 1):
         for start in _returning(signal, width, height, steps, times):
             mask[measured[start : start + width]] = True
+    if mask.any():
+        # A higher one beside it no longer hides the next.
+        mask |= departures(np.where(mask, np.nan, values), least, times)
     return mask
 
 
@@ -103,8 +108,9 @@ def _returning(
     right = left + AROUND + width + 1
     around = np.hstack([padded[left], padded[right]])
     usual = times * np.nanpercentile(around, 75, axis=1)
-    largest = OVER_STEP * np.nanmax(around, axis=1)
-    isolated: NDArray[np.intp] = starts[over[starts] > np.maximum(usual, largest)] + 1
+    largest = np.nanmax(around, axis=1)
+    least = np.clip(usual, OVER_STEP * largest, AMONG * largest)
+    isolated: NDArray[np.intp] = starts[over[starts] > least] + 1
     return isolated
 
 

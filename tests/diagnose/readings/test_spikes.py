@@ -40,6 +40,20 @@ def test_neighbouring_spikes_do_not_hide_each_other() -> None:
     assert _rows(sweep) == {"force": [120, 125]}
 
 
+def test_a_higher_spike_does_not_hide_a_lower_one() -> None:
+    sweep = _with(pulled(), "force", slice(120, 121), 400)
+    sweep = _with(sweep, "force", slice(126, 127), 150)
+    assert _rows(sweep) == {"force": [120, 126]}
+
+
+def test_a_spike_on_a_staircase_is_found() -> None:
+    """Four samples of each ten go up, by 20 N a sample."""
+    step = np.tile([20.0] * 4 + [0.0] * 6, 20)
+    sweep = run(force=np.cumsum(step) + noise(200, 2.0))
+    assert _rows(sweep) == {}
+    assert _rows(_with(sweep, "force", slice(107, 108), 120)) == {"force": [107]}
+
+
 def test_a_spike_on_a_locked_length_is_found() -> None:
     sweep = _with(pulled(), "contraction", slice(50, 51), 0.5)
     assert _rows(sweep) == {"contraction": [50]}
