@@ -19,6 +19,8 @@ class Runs(Track):
 
     slices: tuple[slice, ...]
     """Samples of each run."""
+    beside: Array
+    """What a smooth force leaves out, if a cell errs, less that of the readings. [N]"""
 
     @cached_property
     def apart(self) -> tuple[Track, ...]:

@@ -131,29 +131,30 @@ def _read(explanation: Explanation, signal: Signal, value: Array, track: Runs) -
     return value + explanation.zeros.get(signal, 0.0)
 
 
-def _pressure(explanation: Explanation, track: Track) -> Array:
+def _pressure(explanation: Explanation, track: Runs) -> Array:
     return track.command
 
 
-def _force(explanation: Explanation, track: Track) -> Array:
+def _force(explanation: Explanation, track: Runs) -> Array:
     return track.pressure * track.pull_area
 
 
-def _opening(explanation: Explanation, track: Track) -> Array:
+def _opening(explanation: Explanation, track: Runs) -> Array:
     linkage, length = explanation.linkage, explanation.muscle.rest_length
     if linkage is None:
         return np.full_like(track.time, np.nan)
     return np.asarray(linkage.opening(track.contraction, length))
 
 
-def _grip(explanation: Explanation, track: Track) -> Array:
+def _grip(explanation: Explanation, track: Runs) -> Array:
     linkage, length = explanation.linkage, explanation.muscle.rest_length
     if linkage is None:
         return np.full_like(track.time, np.nan)
-    return np.asarray(linkage.grip_force(track.force, track.contraction, length))
+    force = track.force + track.beside
+    return np.asarray(linkage.grip_force(force, track.contraction, length))
 
 
-_START: Mapping[Signal, Callable[[Explanation, Track], Array]] = {
+_START: Mapping[Signal, Callable[[Explanation, Runs], Array]] = {
     Signal.PRESSURE: _pressure,
     Signal.FORCE: _force,
     Signal.OPENING: _opening,

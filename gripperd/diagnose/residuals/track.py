@@ -58,6 +58,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         cycle=course.cycle,
         repeat=course.repeat,
         slices=course.slices,
+        beside=np.zeros_like(course.time),
     )
     sensors = explanation.sensors()
     if not sensors:
@@ -68,15 +69,20 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         Signal.FORCE: rough.force,
         Signal.GRIP: rough.grip,
     }
+    sharp = course.column("force") - zeros.get(Signal.FORCE, 0.0)
+    rest = sharp - rough.force
     for sensor in reversed(sensors):
         if sensor.signal in readings:
             readings[sensor.signal] = _truth(sensor, readings[sensor.signal], rough)
+        if sensor.signal is Signal.FORCE:
+            sharp = _truth(sensor, sharp, rough)
     return replace(
         rough,
         pressure=readings[Signal.PRESSURE],
         contraction=readings[Signal.CONTRACTION],
         force=readings[Signal.FORCE],
         grip=readings[Signal.GRIP],
+        beside=np.nan_to_num(sharp - readings[Signal.FORCE] - rest),
     )
 
 

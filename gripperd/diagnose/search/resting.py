@@ -21,7 +21,7 @@ DECIDED = 5.0
 """By so much another convention must be better. [nat]"""
 TELLING = (
     "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
-    "threshold_pressure", "force_sensor_bias", "force_sensor_gain",
+    "threshold_pressure", "force_sensor_bias", "force_sensor_gain", "channel_delay",
 )  # fmt: skip
 """What depends on the sign, or could stand in for it."""
 

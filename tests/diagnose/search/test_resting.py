@@ -1,3 +1,5 @@
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from tests.diagnose.small import (
     MODEL,
     Hidden,
     Moment,
+    altered,
     nothing,
     recording,
     without,
@@ -53,6 +56,26 @@ def test_the_convention_that_the_data_support_is_taken(
 ) -> None:
     _, decided = _decided(recording(hidden))
     assert decided.model.at_rest is sign
+
+
+def test_a_cell_that_is_late_is_no_friction_that_turns_with_the_pressure() -> None:
+    """Both open a loop of the same height in sweeps at rest."""
+    plain = recording()
+    times = {run.name: run.columns["time"] for run in plain.runs}
+    late = plain
+    for name, time in times.items():
+        late = altered(late, [name], "force", partial(_shifted, time))
+    known = LIBRARY | {"channel_delay": EFFECTS["channel_delay"]}
+    problem = problem_of(late, MODEL, {})
+    listed, _ = candidates(known, problem, COLUMNS)
+    assert with_resting_sign(problem, listed).model.at_rest is AtRest.CARRIED
+    # Without that name for it, the loop is friction.
+    few = [one for one in listed if one.name != "channel_delay"]
+    assert with_resting_sign(problem, few).model.at_rest is AtRest.INFLATING
+
+
+def _shifted(time: Array, force: Array) -> Array:
+    return np.interp(time - 0.3, time, force)
 
 
 def test_nothing_else_of_the_problem_changes() -> None:
