@@ -26,6 +26,7 @@ from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
 from gripperd.diagnose.search.resting import with_resting_sign
 from gripperd.diagnose.search.rivalry import Contest, contest
+from gripperd.diagnose.search.shut import with_valve_shut
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.search.stiction import with_stiction
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
@@ -167,8 +168,9 @@ def _diagnosed(
     rng = np.random.default_rng(seed)
     listed, untested = candidates(library, parts.train, _columns(recording))
     progress("friction at rest", 0.2)
-    train = with_resting_sign(parts.train, listed)
-    parts = replace(parts, train=train, test=replace(parts.test, model=train.model))
+    train = with_valve_shut(with_resting_sign(parts.train, listed), listed)
+    known = replace(parts.test, model=train.model, courses=train.courses)
+    parts = replace(parts, train=train, test=known)
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
     progress("rivals", 0.7)

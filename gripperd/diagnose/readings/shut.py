@@ -66,17 +66,22 @@ def waiting(courses: Sequence[Course]) -> list[Array]:
     known to keep those that do not sink, for the slowest leak would drain them by far
     more than they lose, the time is 0 there.
     """
-    held = [list(_holds(course)) for course in courses]
-    holds = [hold for own in held for hold in own]
-    top = max((hold.level for hold in holds), default=0.0)
-    least = SINKS * top
+    holds = [hold for course in courses for hold in _holds(course)]
+    least = _least(holds)
     slowest = min((hold.pace for hold in holds if _sinks(hold, least)), default=0.0)
     stay = [hold for hold in holds if not _sinks(hold, least)]
     due = slowest * np.array([hold.level * hold.lasts for hold in stay])
     lost = np.array([hold.lost for hold in stay])
     # The share of what is due that all of them lost, and two standard deviations of it.
     if due @ lost + least * np.sqrt(due @ due) >= KEPT * (due @ due):
-        return [_resting(course) for course in courses]
+        return [resting(course) for course in courses]
+    return sinking(courses)
+
+
+def sinking(courses: Sequence[Course]) -> list[Array]:
+    """The same if but those that sink may be shut; nothing where none does. [s]."""
+    held = [list(_holds(course)) for course in courses]
+    least = _least([hold for own in held for hold in own])
     found = []
     for course, own in zip(courses, held, strict=True):
         waits = np.zeros(len(course))
@@ -85,7 +90,12 @@ def waiting(courses: Sequence[Course]) -> list[Array]:
                 began = _sank_from(course, hold)
                 waits[hold.rows] = np.maximum(course.time[hold.rows] - began, 0.0)
         found.append(waits)
-    return found
+    return found if any(waits.any() for waits in found) else []
+
+
+def _least(holds: Sequence[Hold]) -> float:
+    """Fall from which a pressure sinks. [Pa]."""
+    return SINKS * max((hold.level for hold in holds), default=0.0)
 
 
 def _sinks(hold: Hold, least: float) -> bool:
@@ -94,7 +104,7 @@ def _sinks(hold: Hold, least: float) -> bool:
 
 def _holds(course: Course) -> Iterator[Hold]:
     """From each command to the next, if it rests for long."""
-    pressure, still = course.level("pressure"), _resting(course)
+    pressure, still = course.level("pressure"), resting(course)
     moved = np.cumsum(np.diff(still, prepend=0.0) < 0)
     for number in range(int(moved[-1]) + 1):
         rows = moved == number
@@ -110,7 +120,7 @@ def _holds(course: Course) -> Iterator[Hold]:
             yield Hold(rows, good, first, lost, later, float(np.ptp(time)))
 
 
-def _resting(course: Course) -> Array:
+def resting(course: Course) -> Array:
     """Time since the command last moved, or a cock was opened while it rested. [s]."""
     time, level = course.time, course.level("pressure")
     before = np.searchsorted(time, time - SETTLED)

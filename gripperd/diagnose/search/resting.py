@@ -23,14 +23,15 @@ TELLING = (
     "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
     "threshold_pressure", "force_sensor_bias", "force_sensor_gain", "channel_delay",
 )  # fmt: skip
-"""What depends on the sign, or could stand in for it."""
+"""What depends on the sign, or could stand in for it. A pressure that is late would
+speak of the valve as well."""
 
 
 def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     """Give the problem with the sign at rest that explains most, by evidence."""
     if not rests(problem):
         return problem
-    few = [one for one in listed if one.name in TELLING]
+    few = [one for one in listed if one.name in TELLING and _is_of_force(one)]
     best, most = problem, -np.inf
     for sign in AtRest:
         tried = replace(problem, model=replace(problem.model, at_rest=sign))
@@ -45,6 +46,10 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         if evidence > most + DECIDED:
             best, most = tried, evidence
     return best
+
+
+def _is_of_force(candidate: Candidate) -> bool:
+    return candidate.effect is not None and candidate.effect.signal is Signal.FORCE
 
 
 def rests(problem: Problem) -> bool:

@@ -74,8 +74,23 @@ def test_a_cell_that_is_late_is_no_friction_that_turns_with_the_pressure() -> No
     assert with_resting_sign(problem, few).model.at_rest is AtRest.INFLATING
 
 
+def test_a_valve_that_is_slow_says_nothing_of_friction() -> None:
+    slow = recording()
+    times = {run.name: run.columns["time"] for run in slow.runs}
+    for name, time in times.items():
+        slow = altered(slow, [name], "current", partial(_early, time))
+    problem = problem_of(slow, MODEL, {})
+    known = {"channel_delay": EFFECTS["channel_delay"]}
+    listed, _ = candidates(known, problem, COLUMNS)
+    assert with_resting_sign(problem, listed).model.at_rest is AtRest.CARRIED
+
+
 def _shifted(time: Array, force: Array) -> Array:
     return np.interp(time - 0.3, time, force)
+
+
+def _early(time: Array, current: Array) -> Array:
+    return np.interp(time + 1.0, time, current)
 
 
 def test_nothing_else_of_the_problem_changes() -> None:
