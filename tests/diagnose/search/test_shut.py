@@ -32,7 +32,7 @@ def _problem(pressures: Mapping[str, Array]) -> Problem:
     rng = np.random.default_rng(7)
     runs, start = [], 0.0
     for name, pressure in pressures.items():
-        time = start + STEP * np.arange(pressure.size)
+        time = start + STEP * np.arange(float(pressure.size))
         told = pressure if name.startswith("sweep") else pressure[0] + 0 * pressure
         columns = {
             "time": time,
