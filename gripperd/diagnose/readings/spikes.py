@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from gripperd.diagnose.readings.fault import Fault, Mask
 from gripperd.diagnose.readings.recording import Run
@@ -88,8 +89,9 @@ def departures(values: Array, least: float, times: float) -> Mask:
         for start in _returning(signal, width, height, steps, times):
             mask[measured[start : start + width]] = True
     if mask.any():
-        # A higher one beside it no longer hides the next.
-        mask |= departures(np.where(mask, np.nan, values), least, times)
+        # A higher one no longer hides the next, but what it stood beside is no other.
+        more = departures(np.where(mask, np.nan, values), least, times)
+        mask |= more & ~binary_dilation(mask, iterations=WIDEST)
     return mask
 
 

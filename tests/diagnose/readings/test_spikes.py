@@ -46,6 +46,14 @@ def test_a_higher_spike_does_not_hide_a_lower_one() -> None:
     assert _rows(sweep) == {"force": [120, 126]}
 
 
+def test_a_quick_way_to_where_nothing_is_read_is_not_eaten_up() -> None:
+    """Jaws that close within five samples, to less than their sensor reads."""
+    opening = np.r_[np.full(60, 23.0), 19.7, 12.2, 2.9, np.full(60, np.nan)]
+    opening = np.r_[opening, 2.1, 11.4, 19.2, np.full(60, 23.0)] * 1e-3
+    rows = _rows(run(opening=opening + noise(opening.size, 5e-5)))
+    assert len(rows.get("opening", [])) <= 2
+
+
 def test_a_spike_on_a_staircase_is_found() -> None:
     """Four samples of each ten go up, by 20 N a sample."""
     step = np.tile([20.0] * 4 + [0.0] * 6, 20)
