@@ -9,7 +9,7 @@ import numpy as np
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
-from gripperd.diagnose.readings.level import levels
+from gripperd.diagnose.readings.level import MOVES, levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
@@ -24,8 +24,6 @@ SHORTEST_PAUSE = 2.0
 """Nor is a shorter gap a pause. [s]"""
 LEAST = 4
 """Samples of a sweep."""
-MOVES = 5e-5
-"""Change of current that is a new command: 0.3 % of the span. [A]"""
 
 
 def courses(

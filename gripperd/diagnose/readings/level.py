@@ -25,6 +25,8 @@ QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
+MOVES = 5e-5
+"""Change of current that is a new command: 0.3 % of the span. [A]"""
 LEAST = 20
 """Samples that a plane is laid through."""
 
@@ -148,7 +150,7 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
     """
     current, pressure = sweep.columns["current"], sweep.columns["pressure"]
     good = np.isfinite(current) & np.isfinite(pressure)
-    if not np.isfinite(current).all() or good.sum() < 8 or np.ptp(current) == 0:
+    if not np.isfinite(current).all() or good.sum() < 8 or np.ptp(current) < MOVES:
         return plain
     slope, level = np.polyfit(current[good], pressure[good], 1)
     command = level + slope * current

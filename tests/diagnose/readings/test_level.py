@@ -85,6 +85,19 @@ def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None
     assert np.std(left) < 0.5 * 2e3
 
 
+@pytest.mark.parametrize("read", [0.0, 1e-16, 4e-6])
+def test_what_a_resting_command_is_read_with_says_nothing_of_the_pressure(
+    read: float,
+) -> None:
+    """Not even that it cannot be told from a line: numpy would warn."""
+    pressure = 300e3 + noise(400, 2e3, memory=0.5)
+    one, other = (
+        cut(run(current=8e-3 + noise(400, read, seed), pressure=pressure))[0]
+        for seed in (1, 2)
+    )
+    np.testing.assert_array_equal(one.level("pressure"), other.level("pressure"))
+
+
 def test_a_staircase_without_a_command_has_no_noise_in_its_rests() -> None:
     true = np.repeat([0.0, 150e3, 300e3, 450e3, 300e3, 150e3, 0.0], 60)
     (course,) = cut(run(pressure=true + noise(420, 2e3)))
