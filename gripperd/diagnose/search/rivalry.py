@@ -95,7 +95,8 @@ def _pays(found: Found, bare: Rival, rival: Rival) -> bool:
 def standing_in(found: Found, told: Contest) -> Contest:
     """Keep of the rivals those that fit as well, best first."""
     best = told.best
-    margin = _margin(best, found.null.fit.cost - best.fit.cost)
+    null = found.null.fit
+    margin = _margin(null.cost - best.fit.cost, best.excess)
     places = []
     for index, place in enumerate(told.places):
         rivals = sorted(place.rivals, key=lambda one: -one.evidence)
@@ -103,7 +104,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
             rival
             for rival in rivals
             if best.evidence - rival.evidence < margin
-            and _stands_in(found.problem, best, index, place.without, rival, margin)
+            and _stands_in(found, best, index, place.without, rival)
         )
         places.append(replace(place, rivals=tuple(alike)))
     return Contest(best, tuple(places))
@@ -125,8 +126,9 @@ def _all_challenged(
     ]
 
 
-def _margin(best: Rival, closed: float) -> float:
-    return SURE + 0.5 * min(MISSHAPED * closed, max(best.excess, 0.0))
+def _margin(closed: float, excess: float) -> float:
+    """By how much less a rival may have: of what was closed, where misfit is left."""
+    return SURE + 0.5 * max(min(MISSHAPED * closed, excess), 0.0)
 
 
 def _sounder(problem: Problem, best: Rival, champion: Rival) -> bool:
@@ -139,20 +141,20 @@ def _sounder(problem: Problem, best: Rival, champion: Rival) -> bool:
 
 
 def _stands_in(
-    problem: Problem,
-    best: Rival,
-    index: int,
-    without: Rival,
-    rival: Rival,
-    margin: float,
+    found: Found, best: Rival, index: int, without: Rival, rival: Rival
 ) -> bool:
-    """Whether a rival explains the same signals, not others as much better."""
-    signals = acts_on(problem, best.candidates[index])
-    own, other, bare = (
+    """Whether a rival explains the same signals, not others as much better.
+
+    How badly others fit excuses nothing in these.
+    """
+    signals = acts_on(found.problem, best.candidates[index])
+    own, other, bare, null = (
         sum(one.fit.misfits[signal] for signal in signals)
-        for one in (best, rival, without)
+        for one in (best, rival, without, found.null)
     )
-    return 0.5 * (other - own) < SURE + margin + 0.5 * ALIKE * (bare - own)
+    excess = own - sum(best.fit.counts[signal] for signal in signals)
+    margin = SURE + _margin(null - own, excess)
+    return 0.5 * (other - own) < margin + 0.5 * ALIKE * (bare - own)
 
 
 def _challengers(

@@ -187,6 +187,24 @@ def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
     assert decided.equivalents == (("twin",),)
 
 
+def test_how_badly_a_force_fits_excuses_nothing_in_the_pressure() -> None:
+    """A friction of an unlike law, and a valve that is off: no other friction is it."""
+    high = altered(
+        recording(rubbing_more(1.0)), moments(), "current", lambda one: one - 5e-5
+    )
+    problem = pinned(problem_of(high, MODEL, {}), "muscle.diameter")
+    valve = Candidate("valve_offset", ValveOffset(offset=2e3))
+    best = fitted(problem, RUB, valve)
+    bare, other = fitted(problem, RUB), fitted(problem, RUB, TWIN)
+    places = (Place(fitted(problem, valve)), Place(bare, (other,)))
+    found = ended(problem, best)
+    excess = best.fit.misfits[Signal.FORCE] - best.fit.counts[Signal.FORCE]
+    closed = found.null.fit.cost - best.fit.cost
+    behind = best.evidence - other.evidence
+    assert 5.0 < behind < 0.5 * min(excess, 0.06 * closed)
+    assert standing_in(found, Contest(best, places)).equivalents == ((), ())
+
+
 def _loud(hidden: Hidden, temperature: float, **known: float) -> Problem:
     """A recording in which misfit, not noise, is what is weighed against."""
     told = recording(restless(hidden))
