@@ -24,7 +24,7 @@ from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.search.resting import with_resting_sign
+from gripperd.diagnose.search.resting import with_resting_sign, with_sign_beside
 from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.search.shut import with_valve_shut
 from gripperd.diagnose.search.stepwise import search
@@ -169,10 +169,14 @@ def _diagnosed(
     listed, untested = candidates(library, parts.train, _columns(recording))
     progress("friction at rest", 0.2)
     train = with_valve_shut(with_resting_sign(parts.train, listed), listed)
-    known = replace(parts.test, model=train.model, courses=train.courses)
-    parts = replace(parts, train=train, test=known)
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
+    beside = with_sign_beside(found.problem, found.best)
+    if beside is not found.problem:
+        train = replace(train, model=beside.model)
+        found = search(train, listed, rng)
+    known = replace(parts.test, model=train.model, courses=train.courses)
+    parts = replace(parts, train=train, test=known)
     progress("rivals", 0.7)
     best = contest(found, listed)
     if length_is_open(train, best, tolerances):

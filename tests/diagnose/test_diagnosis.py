@@ -1,4 +1,5 @@
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.document import document
 from gripperd.diagnose.fit.candidates import Candidate, forms
 from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
@@ -422,3 +424,19 @@ def test_what_is_unexplained_is_told_of_the_signal_in_which_it_shows() -> None:
     assert found.verdict is Verdict.UNEXPLAINED
     assert _names(found) == ["threshold_pressure"]
     assert found.main is Signal.PRESSURE
+
+
+def test_a_late_cell_takes_its_loop_from_the_friction_at_rest() -> None:
+    late = recording()
+    for run in recording().runs:
+        time = run.columns["time"]
+        late = altered(late, [run.name], "force", partial(_later, time))
+    library = LIBRARY | {"channel_delay": EFFECTS["channel_delay"]}
+    found = diagnose(late, MODEL, {}, library)
+    assert _names(found) == ["channel_delay"]
+    parts = found.split.train, found.split.test
+    assert {one.model.at_rest for one in parts} == {AtRest.CARRIED}
+
+
+def _later(time: Array, force: Array) -> Array:
+    return np.interp(time - 0.3, time, force)

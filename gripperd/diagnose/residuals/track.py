@@ -69,20 +69,19 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         Signal.FORCE: rough.force,
         Signal.GRIP: rough.grip,
     }
-    sharp = course.column("force") - zeros.get(Signal.FORCE, 0.0)
-    rest = sharp - rough.force
+    beside = rest = np.nan_to_num(course.column("force") - course.level("force"))
     for sensor in reversed(sensors):
+        if sensor.signal is Signal.FORCE:
+            beside = _rest(sensor, beside, readings[Signal.FORCE], rough)
         if sensor.signal in readings:
             readings[sensor.signal] = _truth(sensor, readings[sensor.signal], rough)
-        if sensor.signal is Signal.FORCE:
-            sharp = _truth(sensor, sharp, rough)
     return replace(
         rough,
         pressure=readings[Signal.PRESSURE],
         contraction=readings[Signal.CONTRACTION],
         force=readings[Signal.FORCE],
         grip=readings[Signal.GRIP],
-        beside=np.nan_to_num(sharp - readings[Signal.FORCE] - rest),
+        beside=beside - rest,
     )
 
 
@@ -90,6 +89,18 @@ def _truth(sensor: SensorEffect, reading: Array, track: Runs) -> Array:
     if not sensor.rest().size:
         return sensor.truth(reading, track)
     return track.each(sensor.truth, reading)
+
+
+def _rest(sensor: SensorEffect, rest: Array, smooth: Array, track: Runs) -> Array:
+    """What a smooth reading leaves out, with a sensor's error undone.
+
+    Of one that is late it is that of the nearest sample: a way between two would have
+    less noise than either, and so any delay would seem to explain some.
+    """
+    if not sensor.rest().size:
+        return sensor.truth(smooth + rest, track) - sensor.truth(smooth, track)
+    places = track.each(sensor.truth, np.arange(float(rest.size)))
+    return np.asarray(rest[np.rint(places).astype(int)])
 
 
 def _pressure_at(explanation: Explanation, course: Course) -> Array:

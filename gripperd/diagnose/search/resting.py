@@ -12,6 +12,7 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -21,17 +22,16 @@ DECIDED = 5.0
 """By so much another convention must be better. [nat]"""
 TELLING = (
     "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
-    "threshold_pressure", "force_sensor_bias", "force_sensor_gain", "channel_delay",
+    "threshold_pressure", "force_sensor_bias", "force_sensor_gain",
 )  # fmt: skip
-"""What depends on the sign, or could stand in for it. A pressure that is late would
-speak of the valve as well."""
+"""What depends on the sign, or could stand in for it."""
 
 
 def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     """Give the problem with the sign at rest that explains most, by evidence."""
     if not rests(problem):
         return problem
-    few = [one for one in listed if one.name in TELLING and _is_of_force(one)]
+    few = [one for one in listed if one.name in TELLING]
     best, most = problem, -np.inf
     for sign in AtRest:
         tried = replace(problem, model=replace(problem.model, at_rest=sign))
@@ -48,8 +48,22 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     return best
 
 
-def _is_of_force(candidate: Candidate) -> bool:
-    return candidate.effect is not None and candidate.effect.signal is Signal.FORCE
+def with_sign_beside(problem: Problem, found: Rival) -> Problem:
+    """Give the problem with another sign at rest, if it fits better beside the found.
+
+    What nobody knew of when the sign was chosen may have stood behind it: a cell that
+    is late opens the loop of a friction that turns with the pressure.
+    """
+    if not found.candidates or not rests(problem):
+        return problem
+    best, most = problem, found.evidence
+    for sign in AtRest:
+        if sign is not problem.model.at_rest:
+            tried = replace(problem, model=replace(problem.model, at_rest=sign))
+            fit = polished(tried, found.fit.point)
+            if (evidence := replace(found, fit=fit).evidence) > most + DECIDED:
+                best, most = tried, evidence
+    return best
 
 
 def rests(problem: Problem) -> bool:

@@ -68,22 +68,36 @@ def test_the_pressure_is_that_of_the_line_and_ends_with_its_span() -> None:
     np.testing.assert_allclose(pressure, np.clip(line, 0.0, 500e3), atol=1e-6)
 
 
-def test_a_grip_is_foretold_from_what_a_late_cell_reads_later() -> None:
-    """Up a staircase whose steps a smooth force smears: 40 N of grip in two samples."""
-    time, late = np.linspace(0.0, 49.8, 250), 0.345
-    stairs = 300.0 + 160.0 * np.floor(time / 5)
-    pull = np.interp(time, time[::2], stairs[::2])
+STAIRS = np.linspace(0.0, 49.8, 250)
+"""Times of a grip up a staircase. [s]"""
+
+
+def _grasping(late: float, delay: float) -> Array:
+    """What is left of a grip when a cell that reads late is taken to be so late.
+
+    A smooth force smears the steps: 40 N of grip in two samples.
+    """
+    stairs = 300.0 + 160.0 * np.floor(STAIRS / 5)
+    pull = np.interp(STAIRS, STAIRS[::2], stairs[::2])
+    read = np.interp(STAIRS - late, STAIRS, pull) + noise(250, 8.0)
     grip = (pull - 240.0 - 1000.0 * 0.25 * 0.08) / 4
-    read = np.interp(time - late, time, pull) + noise(250, 8.0)
-    told = run(
-        time=time, pressure=pull, contraction=np.full(250, 0.08), force=read, grip=grip
-    )
+    held = np.full(250, 0.08)
+    told = run(time=STAIRS, pressure=pull, contraction=held, force=read, grip=grip)
     (course,) = courses(Recording("r", "0", (told,)), 0.2)[0]
-    aware = JAWED.with_effect(ChannelDelay(delay=late, channel=Signal.FORCE))
-    relieved = grip - passed_on(JAWED, course, track_of(JAWED, course, 0), Signal.GRIP)
-    left = (relieved - _one(aware, course, Signal.GRIP))[:-2]
+    aware = JAWED.with_effect(ChannelDelay(delay=delay, channel=Signal.FORCE))
+    passed = passed_on(JAWED, course, track_of(JAWED, course, 0), Signal.GRIP)
+    return (grip - passed - _one(aware, course, Signal.GRIP))[:-2]
+
+
+def test_a_grip_is_foretold_from_what_a_late_cell_reads_later() -> None:
     # The noise of the cell, of which a ratio of 4 leaves a quarter.
-    assert np.std(left) < 1.1 * 8.0 / 4
+    assert np.std(_grasping(0.4, 0.4)) == pytest.approx(8.0 / 4, rel=0.1)
+
+
+def test_a_delay_takes_no_noise_off_a_grip() -> None:
+    """Halfway between two readings there would be a third less of it."""
+    usual = [np.median(np.abs(_grasping(0.0, delay))) for delay in (0.0, 0.08)]
+    assert usual[1] == pytest.approx(usual[0], rel=0.1)
 
 
 def test_a_regulator_that_lags_follows_a_ramp_by_its_time_constant(

@@ -3,14 +3,18 @@ from functools import partial
 import numpy as np
 import pytest
 
-from gripperd.diagnose.fit.candidates import candidates
+from gripperd.diagnose.fit.candidates import Candidate, candidates
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.resting import with_resting_sign
+from gripperd.diagnose.search.resting import with_resting_sign, with_sign_beside
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
+from gripperd.effects.channel_delay import ChannelDelay
+from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from tests.diagnose.fitted import fitted
 from tests.diagnose.small import (
     MODEL,
     Hidden,
@@ -58,39 +62,33 @@ def test_the_convention_that_the_data_support_is_taken(
     assert decided.model.at_rest is sign
 
 
-def test_a_cell_that_is_late_is_no_friction_that_turns_with_the_pressure() -> None:
-    """Both open a loop of the same height in sweeps at rest."""
-    plain = recording()
-    times = {run.name: run.columns["time"] for run in plain.runs}
-    late = plain
+def _late() -> Problem:
+    """A cell that reads 0.3 s late opens a loop in sweeps at rest."""
+    late = recording()
+    times = {run.name: run.columns["time"] for run in late.runs}
     for name, time in times.items():
         late = altered(late, [name], "force", partial(_shifted, time))
-    known = LIBRARY | {"channel_delay": EFFECTS["channel_delay"]}
-    problem = problem_of(late, MODEL, {})
-    listed, _ = candidates(known, problem, COLUMNS)
-    assert with_resting_sign(problem, listed).model.at_rest is AtRest.CARRIED
-    # Without that name for it, the loop is friction.
-    few = [one for one in listed if one.name != "channel_delay"]
-    assert with_resting_sign(problem, few).model.at_rest is AtRest.INFLATING
+    _, decided = _decided(late)
+    return decided
 
 
-def test_a_valve_that_is_slow_says_nothing_of_friction() -> None:
-    slow = recording()
-    times = {run.name: run.columns["time"] for run in slow.runs}
-    for name, time in times.items():
-        slow = altered(slow, [name], "current", partial(_early, time))
-    problem = problem_of(slow, MODEL, {})
-    known = {"channel_delay": EFFECTS["channel_delay"]}
-    listed, _ = candidates(known, problem, COLUMNS)
-    assert with_resting_sign(problem, listed).model.at_rest is AtRest.CARRIED
+def test_a_cell_found_to_be_late_takes_friction_back_to_what_it_was() -> None:
+    problem = _late()
+    assert problem.model.at_rest is AtRest.INFLATING
+    assert with_sign_beside(problem, fitted(problem)) is problem
+    cell = ChannelDelay(delay=0.3, channel=Signal.FORCE)
+    found = fitted(problem, Candidate("channel_delay", cell))
+    assert with_sign_beside(problem, found).model.at_rest is AtRest.CARRIED
+
+
+def test_friction_that_is_found_leaves_its_sign_as_it_is() -> None:
+    _, problem = _decided(recording(_turning))
+    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+    assert with_sign_beside(problem, fitted(problem, rub)) is problem
 
 
 def _shifted(time: Array, force: Array) -> Array:
     return np.interp(time - 0.3, time, force)
-
-
-def _early(time: Array, current: Array) -> Array:
-    return np.interp(time + 1.0, time, current)
 
 
 def test_nothing_else_of_the_problem_changes() -> None:
