@@ -15,17 +15,23 @@ import numpy as np
 
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InGripper
-from gripperd.model.memory import begin, play
+from gripperd.model.memory import begin, between
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
 AT_REST = 0.01
 """Contraction from which a way there was one of closing jaws. [-]"""
+PRESSING = 5.0
+"""Grip that moves the jaws through the gap, beyond what they rub and weigh. [N]"""
 
 
 @dataclass(frozen=True, slots=True)
 class LinkageBacklash(InGripper):
-    """Play of half the width on the opening."""
+    """Play of half the width on the opening.
+
+    An object that is gripped holds the jaws to the side to which they close, so that
+    they lose no motion until they let go.
+    """
 
     name: ClassVar[str] = "linkage_backlash"
     needs: ClassVar[frozenset[str]] = frozenset({"opening", "contraction"})
@@ -44,6 +50,9 @@ class LinkageBacklash(InGripper):
     there went, closing to a contraction or opening to rest length, -1 on the other. [-]
     """
 
+    closed: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
+    """Share of the gap that a grip closes. [-]"""
+
     @property
     def signal(self) -> Signal:
         """The opening."""
@@ -58,4 +67,6 @@ class LinkageBacklash(InGripper):
         if np.isnan(memory[0]) and value.size:
             side = min(2 * track.contraction[0] / AT_REST - 1, 1.0)
             memory[0] = value[0] + self.begun * max(side, -1.0) * self.width / 2
-        return play(value, self.width / 2, memory)
+        half = self.width / 2
+        pressed = self.closed * (track.grip > PRESSING)
+        return between(value - half + pressed * self.width, value + half, memory)

@@ -98,6 +98,14 @@ def play(signal: Array, radius: float, state: Array) -> Array:
     return compiled(_play)(signal, radius, state)
 
 
+def between(low: Array, high: Array, state: Array) -> Array:
+    """Lost motion between two sides that move, shape ``(n,)``: as far as they push.
+
+    The state, shape ``(1,)``, is the last output; it begins in their middle.
+    """
+    return compiled(_between)(low, high, state)
+
+
 def dahl(
     signal: Array, direction: Array, share: Array, distance: float, state: Array
 ) -> Array:
@@ -186,6 +194,18 @@ def _play(signal: Array, radius: float, state: Array) -> Array:
         if np.isnan(last):
             last = goal
         last = min(max(last, goal - radius), goal + radius)
+        out[index] = last
+    state[0] = last
+    return out
+
+
+def _between(low: Array, high: Array, state: Array) -> Array:
+    out = np.empty_like(low)
+    last = state[0]
+    for index in range(low.size):
+        if np.isnan(last):
+            last = (low[index] + high[index]) / 2
+        last = min(max(last, low[index]), high[index])
         out[index] = last
     state[0] = last
     return out

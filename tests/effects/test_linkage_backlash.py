@@ -18,6 +18,27 @@ def test_the_jaws_stand_still_until_the_play_is_taken_up(muscle: Muscle) -> None
     assert found == pytest.approx(expected)
 
 
+def test_a_grip_holds_the_jaws_to_the_side_to_which_they_close(muscle: Muscle) -> None:
+    """Pressed on a soft object and eased, they lose nothing until they let go."""
+    told = 1e-3 * np.array([80.0, 50.0, 48.0, 50.0, 52.0, 53.0, 60.0])
+    grip = np.array([0.0, 20.0, 40.0, 20.0, 0.0, 0.0, 0.0])
+    track = track_of(muscle, contraction=told, grip=grip)
+    held, free = (
+        LinkageBacklash(width=2e-3, closed=share).along(told, track, np.full(1, np.nan))
+        for share in (1.0, 0.0)
+    )
+    assert 1e3 * held == pytest.approx([80.0, 51.0, 49.0, 51.0, 51.0, 52.0, 59.0])
+    assert 1e3 * free == pytest.approx([80.0, 51.0, 49.0, 49.0, 51.0, 52.0, 59.0])
+
+
+def test_without_a_grip_cell_nothing_holds_them(muscle: Muscle) -> None:
+    told = 1e-3 * np.array([80.0, 50.0, 48.0, 50.0])
+    track = track_of(muscle, contraction=told, grip=np.nan)
+    effect = LinkageBacklash(width=2e-3, closed=1.0)
+    found = 1e3 * effect.along(told, track, effect.rest())
+    assert found == pytest.approx([80.0, 51.0, 49.0, 49.0])
+
+
 def test_a_record_may_begin_on_the_side_where_the_way_there_left_it(
     muscle: Muscle,
 ) -> None:
