@@ -28,8 +28,15 @@ STEADY = 0.2
 KEPT = 1 / 2
 """Share of what the slowest leak would lose, below which holds lose nothing: from 400
 to 160 kPa the pace of an orifice, of the root of the pressure, changes by 1.6. [-]"""
-REFILLED = 0.06
-"""Share of it that comes back within :data:`SETTLED` where a cock is opened. [-]"""
+REFILLED = 6.0
+"""Standard deviations by which readings rise from one window to the next where a cock
+is opened; noise alone does so once in 1e9 windows. [-]"""
+WINDOW = 3.0
+"""Its length: a regulator has filled up by then. [s]"""
+LEAST = 5
+"""Samples of it."""
+BACK = 0.5
+"""Share of the rise that had been lost since the regulator had followed. [-]"""
 CLEARLY = 30.0
 """Fall of the misfit, in squares of what is left, from which a pressure that sinks has
 stayed at first. Of 2000 drawn leaks one in a thousand fell by 8 by chance, by 38 where
@@ -122,12 +129,48 @@ def _holds(course: Course) -> Iterator[Hold]:
 
 def resting(course: Course) -> Array:
     """Time since the command last moved, or a cock was opened while it rested. [s]."""
-    time, level = course.time, course.level("pressure")
-    before = np.searchsorted(time, time - SETTLED)
-    rises = level - level[before] > REFILLED * np.nanmax(level, initial=0.0)
-    rises &= course.still > 2 * SETTLED
-    opened = np.where(rises & ~np.roll(rises, 1), time, -np.inf)
-    return np.minimum(course.still, time - np.maximum.accumulate(opened))
+    opened = np.where(_opened(course), course.time, -np.inf)
+    return np.minimum(course.still, course.time - np.maximum.accumulate(opened))
+
+
+def _opened(course: Course) -> Mask:
+    """Samples at which a pressure comes back, of which some was lost at rest."""
+    found = np.zeros(len(course), dtype=bool)
+    time, still = course.time, course.still
+    lasts = max(LEAST * float(np.median(course.step)), WINDOW)
+    means = _Means(time, course.column("pressure"))
+    before, number = means.within(time - lasts, time)
+    after, more = means.within(time, time + lasts)
+    moved = time - still
+    first, _ = means.within(moved + SETTLED, moved + SETTLED + lasts)
+    rise, lost = after - before, first - before
+    few = np.minimum(number, more) < LEAST
+    noise = course.hush("pressure") * np.sqrt(
+        1 / np.maximum(number, 1) + 1 / np.maximum(more, 1)
+    )
+    rises = (rise > REFILLED * noise) & (lost > BACK * rise) & ~few
+    rises &= still > 2 * SETTLED + lasts
+    for row in np.flatnonzero(rises):
+        near = np.abs(time - time[row]) <= lasts
+        found[row] = rise[row] >= np.nanmax(np.where(near & rises, rise, -np.inf))
+    return found
+
+
+class _Means:
+    """Means of a column over spans of time."""
+
+    def __init__(self, time: Array, column: Array) -> None:
+        known = np.isfinite(column)
+        self._time = time
+        self._sum = np.append(0.0, np.cumsum(np.where(known, column, 0.0)))
+        self._number = np.append(0, np.cumsum(known))
+
+    def within(self, start: Array, end: Array) -> tuple[Array, Array]:
+        """Mean from each start until before each end, and of how many samples."""
+        low, high = (np.searchsorted(self._time, one) for one in (start, end))
+        number = np.maximum(self._number[high] - self._number[low], 0)
+        total = self._sum[high] - self._sum[low]
+        return np.where(number > 0, total / np.maximum(number, 1), np.nan), number
 
 
 def _sank_from(course: Course, hold: Hold) -> float:

@@ -151,6 +151,21 @@ def test_a_cock_that_is_opened_amid_a_hold_ends_it() -> None:
     assert not waits[410:].any()
 
 
+def test_a_cock_that_is_opened_just_before_the_end_hides_no_leak() -> None:
+    """3 % of the highest pressure are lost, and come back for the last 3 s."""
+    shut = np.concatenate([_leaking(40.0, 1.5e-3, TOP / 2), _kept(3.0, TOP / 2)])
+    waits = _recorded({"hold": _kept(60.0), "shut": shut})
+    np.testing.assert_allclose(waits["shut"][:399], _lasting(39.9))
+    assert not waits["shut"][401:].any()
+    assert not waits["hold"].any()
+
+
+def test_a_regulator_that_is_slow_to_fill_has_been_opened_by_nobody() -> None:
+    slow = TOP * (1 - np.exp(-_lasting(30.0) / 4.0))
+    told = _recorded({"slow": slow}, commands={"slow": [(0, TOP)]})["slow"]
+    np.testing.assert_allclose(told, _lasting(30.0))
+
+
 def test_where_all_sinks_it_begins_anew_when_the_pressure_has_come_back() -> None:
     twice = np.concatenate([_leaking(40.0), _leaking(40.0)])
     waits = _recorded({"twice": twice})["twice"]
