@@ -6,32 +6,51 @@ References
        chapter 1: generalised Maxwell element, a series of exponentials (Prony series).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
 
 from gripperd.model.kinds import InMuscle
 from gripperd.model.memory import begin, lag
-from gripperd.model.parameter import amplitude, shape
+from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.track import Array, Track
 
 SPACING = 6.0
 """Ratio of neighbouring time constants. Three terms this far apart follow a
 logarithmic law over two decades within 4 % of its rise. [-]"""
 
+RUBBER = 5.0
+"""Times the force of eq. (5) of which the shares of a bladder are told: at half of its
+stroke a muscle at 4 bar pulls so many times harder. [-]"""
+
+
+class Creeping(StrEnum):
+    """What comes late."""
+
+    PULL = "pull"
+    """What the pressure makes of the braid."""
+    RUBBER = "rubber"
+    """What the stretched bladder pulls back with: it relaxes after a stroke."""
+
 
 @dataclass(frozen=True, slots=True)
 class Creep(InMuscle):
-    r"""Part of the ideal pull comes late, with a series of time constants.
+    r"""Part of the pull, or of what rubber takes from it, comes late.
+
+    With a series of time constants:
 
     .. math:: F = F_0 - \sum_{i=0}^{2} a_i (u - u_i), \quad
               \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
               u = p \left[A(0) + l (A(h) - A(0))\right]
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when the bladder creeps under pressure alone. Once settled it adds nothing. A record
-    that begins under pressure goes on from a wait under it, which may have been long.
+    when the bladder creeps under pressure alone. One that relaxes under its own stretch
+    has ``u = 5 F_s(h)``, of eq. (5). Once settled it adds nothing. A record that begins
+    under a load goes on from a wait under it, which may have been long.
     """
 
     name: ClassVar[str] = "creep"
@@ -49,8 +68,15 @@ class Creep(InMuscle):
         " at first"
     )
 
+    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
+        {Creeping.RUBBER: ("leverage",)}
+    )
+    rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {Creeping.RUBBER: "rubber_elasticity"}
+    )
+
     fast: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
-    """Share of the pull that is late by the shortest time constant. [-]"""
+    """Share of the load that is late by the shortest time constant. [-]"""
     medium: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
     """Share that is late by the next. [-]"""
     slow: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
@@ -64,15 +90,15 @@ class Creep(InMuscle):
     pressure: 1 as the pressure comes, ``exp(-t / 6 tau)`` after a wait, 0 where all has
     settled. The others have waited as long. [-]"""
 
+    of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
+
     def rest(self) -> Array:
         """Three lags that have not begun."""
         return begin(3)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take from the pull what has not come yet."""
-        rest = track.muscle.pull_area(0.0)
-        area = rest + self.leverage * (track.pull_area - rest)
-        load = np.asarray(track.pressure * area)
+        load = self._load(track)
         late = np.zeros_like(load)
         if np.isnan(memory).any() and load.size:
             left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
@@ -82,3 +108,13 @@ class Creep(InMuscle):
             state = memory[index : index + 1]
             late += share * (load - lag(load, track.step, time, time, state))
         return value - late
+
+    def _load(self, track: Track) -> Array:
+        """What creeps goes after. [N]."""
+        muscle = track.muscle
+        if self.of is Creeping.RUBBER:
+            ratio = track.diameter_ratio
+            return np.asarray(RUBBER * muscle.elastic_force(track.contraction, ratio))
+        rest = muscle.pull_area(0.0)
+        area = rest + self.leverage * (track.pull_area - rest)
+        return np.asarray(track.pressure * area)

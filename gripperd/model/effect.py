@@ -6,6 +6,7 @@ and the friction of eq. (6) are effects like any other. Every effect is a frozen
 dataclass whose numbers are declared by :mod:`gripperd.model.parameter`.
 """
 
+from collections.abc import Mapping
 from dataclasses import Field
 from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, TypeGuard
@@ -88,6 +89,10 @@ class Effect(Protocol):
     """Whether all its amplitudes have one sign, be it this or that."""
     basis: ClassVar[str]
     """Name of the effect it departs from, empty for none."""
+    idle: ClassVar[Mapping[str, tuple[str, ...]]]
+    """Parameters that a word it may choose leaves without a meaning."""
+    rests_on: ClassVar[Mapping[str, str]]
+    """Name of the effect that a word it may choose is about."""
 
     @property
     def signal(self) -> Signal:

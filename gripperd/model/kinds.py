@@ -1,5 +1,7 @@
 """What the effects of one stage have in common: bases that fill in the port."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
@@ -18,6 +20,8 @@ class Memoryless:
     timed: ClassVar[bool] = False
     one_sided: ClassVar[bool] = False
     basis: ClassVar[str] = ""
+    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
+    rests_on: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
     def rest(self) -> Array:
         """No memory."""

@@ -1,5 +1,6 @@
 """Parameters of an effect: their unit, their bounds, and how they are searched."""
 
+from collections.abc import Mapping
 from dataclasses import Field, dataclass, field, fields
 from enum import StrEnum
 from math import inf
@@ -73,6 +74,28 @@ def parameters(
 ) -> dict[str, Parameter]:
     """Every declared parameter of an effect, by the name of its field."""
     return {one.name: _known(one) for one in fields(effect) if _KEY in one.metadata}
+
+
+def in_use(
+    effect: "DataclassInstance", idle: Mapping[str, tuple[str, ...]]
+) -> dict[str, Parameter]:
+    """Those of an effect that mean something, beside the words that it has chosen.
+
+    Parameters
+    ----------
+    effect
+        With its words chosen.
+    idle
+        Names of parameters without a meaning, by the word that takes it.
+    """
+    without = {name for word in words(effect) for name in idle.get(word, ())}
+    return {n: one for n, one in parameters(effect).items() if n not in without}
+
+
+def words(effect: "DataclassInstance") -> list[str]:
+    """Give what an effect has chosen where a parameter is a word."""
+    known = parameters(effect)
+    return [getattr(effect, name) for name, one in known.items() if one.choices]
 
 
 def _known(declared: Field[Any]) -> Parameter:

@@ -71,9 +71,11 @@ LINKAGES = st.builds(
 
 @st.composite
 def effects(draw: st.DrawFn, kind: type[Effect]) -> Effect:
-    numbers = {
+    chosen: dict[str, Any] = {
         name: draw(
-            number(
+            st.sampled_from(known.choices)
+            if known.choices
+            else number(
                 known.low / factor_of(known.unit),
                 known.high / factor_of(known.unit),
                 known.unit,
@@ -82,9 +84,9 @@ def effects(draw: st.DrawFn, kind: type[Effect]) -> Effect:
         for name, known in parameters(kind).items()
     }
     if kind is BraidFriction:
-        return BraidFriction(draw(st.sampled_from(Form)), **numbers)
+        return BraidFriction(draw(st.sampled_from(Form)), **chosen)
     built: Any = kind
-    return built(**numbers)  # type: ignore[no-any-return]
+    return built(**chosen)  # type: ignore[no-any-return]
 
 
 PROVENANCES = st.builds(

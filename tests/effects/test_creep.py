@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.effects.creep import Creep
+from gripperd.effects.creep import Creep, Creeping
 from gripperd.model import Muscle
 from gripperd.model.track import Array
 from tests.effects.tracks import track_of
@@ -46,6 +46,29 @@ def test_a_record_under_pressure_goes_on_where_the_wait_before_it_ended(
     # What the same step would have left of it so much later.
     expected = pull * np.exp(-(TIME[:, None] + waited) / TIMES) @ SHARES
     assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_bladder_relaxes_under_its_own_stretch(muscle: Muscle) -> None:
+    """By a tenth at once: its rubber pulls back by 5 times the shares more."""
+    step = np.diff(TIME, prepend=0.0)
+    shortened = np.where(TIME > 0, 0.1, 0.0)
+    effect = replace(CREEP, of=Creeping.RUBBER)
+    forces = [
+        effect.along(
+            np.zeros_like(TIME),
+            track_of(muscle, time=TIME, step=step, pressure=bar, contraction=shortened),
+            effect.rest(),
+        )
+        for bar in (1e5, 4e5)
+    ]
+    # Eq. (5) of the paper, at the constants of the muscle.
+    cosine = 0.9 * np.cos(muscle.braid_angle)
+    wider = np.sqrt(1 - cosine**2) / np.sin(muscle.braid_angle)
+    hoop = 0.81 / np.tan(muscle.braid_angle) ** 2 * (1 - 1 / wider)
+    modulus = muscle.elastic_modulus * muscle.wall_thickness * np.pi * muscle.diameter
+    expected = left_of(5 * modulus * (hoop + 0.1 * wider))[1:]
+    assert -forces[0][1:] == pytest.approx(expected, rel=1e-6)
+    np.testing.assert_array_equal(forces[0], forces[1])
 
 
 def test_what_has_settled_stays(muscle: Muscle) -> None:

@@ -11,7 +11,7 @@ from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.constants import PARTS
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Effect, Stage
-from gripperd.model.parameter import parameters
+from gripperd.model.parameter import in_use, parameters, words
 
 LINEAR = ("valve_offset", "valve_gain")
 SAME: Mapping[str, str] = MappingProxyType({
@@ -42,8 +42,7 @@ class Candidate:
         """Its name, and the words it chose, such as the channel that is late."""
         if self.effect is None:
             return (self.name,)
-        chosen = [name for name, one in parameters(self.effect).items() if one.choices]
-        return (self.name, *(str(getattr(self.effect, name)) for name in chosen))
+        return (self.name, *map(str, words(self.effect)))
 
     @property
     def doubles(self) -> tuple[str, ...]:
@@ -74,7 +73,11 @@ def candidates(
         if reason := _unseen(problem, kind, columns):
             unseen[name] = reason
             continue
-        found += [Candidate(name, effect) for effect in forms(kind)]
+        found += [
+            Candidate(name, effect)
+            for effect in forms(kind)
+            if present.issuperset(_bases(effect))
+        ]
     found += _wrong_constants(library, problem)
     return tuple(found), unseen
 
@@ -141,7 +144,7 @@ def forms(kind: type[Effect]) -> list[Effect]:
     }
     shapes |= {name: one.choices for name, one in known.items() if one.choices}
     typical = {name: one.scale for name, one in known.items() if one.is_amplitude}
-    return [
+    every = [
         replace(
             kind(),
             **{name: sign * scale for name, scale in typical.items()},
@@ -150,6 +153,19 @@ def forms(kind: type[Effect]) -> list[Effect]:
         for sign in ((1, -1) if kind.one_sided else (1,))
         for values in product(*shapes.values())
     ]
+    return [one for one in every if not _starts_again(one)]
+
+
+def _bases(effect: Effect) -> list[str]:
+    """Names of the effects that its words are about."""
+    return [effect.rests_on[one] for one in words(effect) if one in effect.rests_on]
+
+
+def _starts_again(effect: Effect) -> bool:
+    """Whether it is another form but for what its words leave without a meaning."""
+    idle = parameters(effect).keys() - in_use(effect, effect.idle).keys()
+    plain = type(effect)()
+    return any(getattr(effect, name) != getattr(plain, name) for name in idle)
 
 
 def side(effect: Effect) -> int:

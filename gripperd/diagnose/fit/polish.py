@@ -18,7 +18,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.response import Base, change, responses, sensitivities
 from gripperd.model.effect import Effect, Signal
-from gripperd.model.parameter import parameters
+from gripperd.model.parameter import in_use
 from gripperd.model.track import Array
 
 ROUNDS = 12
@@ -127,7 +127,7 @@ def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
     base = Base.of(problem, point)
     for effect in point.effects:
         answers = iter(responses(problem, point, effect, base))
-        for name, known in parameters(effect).items():
+        for name, known in in_use(effect, effect.idle).items():
             low, high = limits(problem, effect, name)
             if known.is_amplitude:
                 prior = problem_prior(problem, effect, next(answers)) or 1.0

@@ -14,7 +14,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.model.effect import Effect, Signal
-from gripperd.model.parameter import parameters
+from gripperd.model.parameter import in_use
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +117,7 @@ def _estimates(
     }
     return {
         name: Estimate(float(getattr(effect, name)), *sought.get(name, (0.0,)))
-        for name, known in parameters(effect).items()
+        for name, known in in_use(effect, effect.idle).items()
         if not known.choices
     }
 
