@@ -72,7 +72,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
     beside = rest = np.nan_to_num(course.column("force") - course.level("force"))
     for sensor in reversed(sensors):
         if sensor.signal is Signal.FORCE:
-            beside = _rest(sensor, beside, readings[Signal.FORCE], rough)
+            beside = _rest(sensor, beside, rough)
         if sensor.signal in readings:
             readings[sensor.signal] = _truth(sensor, readings[sensor.signal], rough)
     return replace(
@@ -91,14 +91,15 @@ def _truth(sensor: SensorEffect, reading: Array, track: Runs) -> Array:
     return track.each(sensor.truth, reading)
 
 
-def _rest(sensor: SensorEffect, rest: Array, smooth: Array, track: Runs) -> Array:
-    """What a smooth reading leaves out, with a sensor's error undone.
+def _rest(sensor: SensorEffect, rest: Array, track: Runs) -> Array:
+    """What a smooth reading leaves out, when a sensor's lateness is undone.
 
-    Of one that is late it is that of the nearest sample: a way between two would have
-    less noise than either, and so any delay would seem to explain some.
+    It is that of the nearest sample: a way between two would have less noise than
+    either, and so any delay would seem to explain some. So would any gain that shrinks
+    it, and it stays as it was read.
     """
     if not sensor.rest().size:
-        return sensor.truth(smooth + rest, track) - sensor.truth(smooth, track)
+        return rest
     places = track.each(sensor.truth, np.arange(float(rest.size)))
     return np.asarray(rest[np.rint(places).astype(int)])
 

@@ -15,6 +15,7 @@ from gripperd.effects.braid_friction import BraidFriction
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.force_sensor_gain import ForceSensorGain
 from gripperd.effects.linkage_friction import LinkageFriction
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.series_compliance import SeriesCompliance
@@ -98,6 +99,26 @@ def test_a_delay_takes_no_noise_off_a_grip() -> None:
     """Halfway between two readings there would be a third less of it."""
     usual = [np.median(np.abs(_grasping(0.0, delay))) for delay in (0.0, 0.08)]
     assert usual[1] == pytest.approx(usual[0], rel=0.1)
+
+
+def test_a_gain_takes_no_noise_off_a_grip() -> None:
+    """Nor does one that says that a cell reads a tenth too high."""
+    held, pull = np.full(250, 0.08), np.full(250, 600.0)
+    told = run(
+        time=STAIRS, pressure=pull, contraction=held, force=pull + noise(250, 8.0),
+        grip=(pull - 260.0) / 4,
+    )  # fmt: skip
+    (course,) = courses(Recording("r", "0", (told,)), 0.2)[0]
+    passed = passed_on(JAWED, course, track_of(JAWED, course, 0), Signal.GRIP)
+    left = [
+        np.std(
+            told.columns["grip"]
+            - passed
+            - _one(JAWED.with_effect(ForceSensorGain(error=error)), course, Signal.GRIP)
+        )
+        for error in (0.0, 0.1)
+    ]
+    assert left[1] == pytest.approx(left[0], rel=0.01)
 
 
 def test_a_regulator_that_lags_follows_a_ramp_by_its_time_constant(
