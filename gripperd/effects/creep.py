@@ -24,8 +24,8 @@ SPACING = 6.0
 logarithmic law over two decades within 4 % of its rise. [-]"""
 
 RUBBER = 5.0
-"""Times the force of eq. (5) of which the shares of a bladder are told: at half of its
-stroke a muscle at 4 bar pulls so many times harder. [-]"""
+"""Times the force of eq. (5) of which the shares of a bladder are told: the reference
+muscle pulls so many times harder at 4 bar, 7 % shorter than at rest. [-]"""
 
 
 class Creeping(StrEnum):
@@ -91,6 +91,7 @@ class Creep(InMuscle):
     settled. The others have waited as long. [-]"""
 
     of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
+    """What comes late."""
 
     def rest(self) -> Array:
         """Three lags that have not begun."""

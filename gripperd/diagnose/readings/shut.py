@@ -86,7 +86,7 @@ def waiting(courses: Sequence[Course]) -> list[Array]:
 
 
 def sinking(courses: Sequence[Course]) -> list[Array]:
-    """The same if but those that sink may be shut; nothing where none does. [s]."""
+    """The same if but those that sink may be shut. [s]."""
     held = [list(_holds(course)) for course in courses]
     least = _least([hold for own in held for hold in own])
     found = []
@@ -97,7 +97,7 @@ def sinking(courses: Sequence[Course]) -> list[Array]:
                 began = _sank_from(course, hold)
                 waits[hold.rows] = np.maximum(course.time[hold.rows] - began, 0.0)
         found.append(waits)
-    return found if any(waits.any() for waits in found) else []
+    return found
 
 
 def _least(holds: Sequence[Hold]) -> float:

@@ -26,7 +26,7 @@ def with_valve_shut(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     """
     leaks = [one for one in listed if one.name == SHUT]
     sunk = sinking(problem.courses)
-    if not (leaks and sunk):
+    if not leaks or not any(waits.any() for waits in sunk):
         return problem
     start = polished(problem, Point(np.zeros(len(problem.constants)))).point
     best, most = problem, _evidence(problem, start, leaks)
