@@ -91,11 +91,12 @@ def _effects(diagnosis: Diagnosis) -> Group | None:
     )
     for entry in diagnosis.named:
         keys = keys_of(entry)
+        words = [f"{name} {word}" for name, word in entry.chosen.items()]
         numbers = [_number(entry, name, key) for name, key in keys.items()]
         table.add_row(
             public(entry.name),
             entry.stage,
-            "\n".join(numbers),
+            "\n".join((*words, *numbers)),
             chance(entry.p_value),
             f"{entry.delta_bic:.0f}",
             "\n".join(map(public, entry.equivalents)) or "-",

@@ -121,6 +121,7 @@ def _effect(diagnosis: Diagnosis, entry: Named) -> Document:
             }
             for name, estimate in entry.parameters.items()
         },
+        "chosen": entry.chosen,
         "size": {
             "signal": column.name,
             "unit": column.unit,

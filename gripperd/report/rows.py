@@ -142,6 +142,8 @@ def numbers(diagnosis: Diagnosis) -> Table | None:
 
 def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
     for entry in diagnosis.named:
+        for name, word in entry.chosen.items():
+            yield public(entry.name), name, word, "chosen", "-"
         for name, key in keys_of(entry).items():
             one = entry.parameters[name]
             half = NORMAL_95 * one.std

@@ -35,6 +35,7 @@ def test_a_number_says_when_a_bound_holds_it(
     assert "slow 0.150 ± 0.031, at its bound" in text
     assert "time_s 0.536 ± 0.094 " in text
     assert "fresh 0, chosen" in text
+    assert "of pull" in text
     assert " < 1e-99 " in text
 
 

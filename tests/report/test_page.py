@@ -170,6 +170,7 @@ def test_what_was_chosen_has_no_interval(creep: Diagnosis) -> None:
     entry = replace(creep.named[0], parameters={"fresh": Estimate(0.0, 0.0)})
     text = written(replace(creep, named=(entry,)))
     assert "<td>fresh</td><td>0</td><td>chosen</td><td>-</td>" in text
+    assert "<td>of</td><td>pull</td><td>chosen</td><td>-</td>" in text
 
 
 def test_no_p_value_is_0(creep: Diagnosis) -> None:

@@ -14,7 +14,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.model.effect import Effect, Signal
-from gripperd.model.parameter import in_use
+from gripperd.model.parameter import in_use, parameters
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +48,17 @@ class Named:
     delta_bic: float
     heldout_gain: float
     """Share of the mean square above the noise that it closes on held-out runs."""
+
+    @property
+    def chosen(self) -> dict[str, str]:
+        """Words that say which of several it is, such as the channel that is late."""
+        if self.effect is None:
+            return {}
+        return {
+            name: str(getattr(self.effect, name))
+            for name, known in parameters(self.effect).items()
+            if known.choices
+        }
 
 
 def named(
