@@ -25,6 +25,11 @@ INPUTS: Mapping[Signal, tuple[str, ...]] = {
     Signal.GRIP: ("contraction", "grip"),
 }
 """Columns a stage needs, with the one it predicts."""
+DRIVEN = 0.02
+"""Contraction over which a machine moves jaws, at least. [-]"""
+OPPOSED = 0.95
+"""Share of the way on which the load falls as they close, or rises as they open: where
+a machine moves them 0.99; on objects, whose jaws but seem to move, up to 0.8. [-]"""
 TURNED = 4e-4
 """Half the way back, of a muscle inside a mount, over which its friction turns. [-]"""
 
@@ -84,9 +89,19 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
 
 
 def _leaned(track: Runs) -> Runs:
-    """Joints rub the way their load goes: jaws on an object hardly travel."""
-    direction = track.each(lambda load, _: leaning(load), track.force)
-    return replace(track, direction=direction)
+    return replace(track, direction=track.each(_rubbing, track.force))
+
+
+def _rubbing(load: Array, run: Track) -> Array:
+    """Joints rub the way their load goes: jaws on an object hardly travel.
+
+    But where a machine moves them the load falls as they close, and rises as they open:
+    there they rub the way they go.
+    """
+    work = np.nan_to_num(np.diff(load) * np.diff(run.contraction))
+    falls = -work.sum() > OPPOSED * np.abs(work).sum()
+    driven = falls and np.ptp(run.contraction) > DRIVEN
+    return run.direction if driven else leaning(load)
 
 
 def _strained(explanation: Explanation, track: Runs) -> Runs:

@@ -299,6 +299,34 @@ def test_the_grip_rubs_the_way_its_load_goes() -> None:
     np.testing.assert_allclose(share[125:], 1.1)
 
 
+@pytest.mark.parametrize("wanders", [False, True])
+def test_where_a_machine_moves_jaws_the_grip_rubs_the_way_they_go(
+    *, wanders: bool
+) -> None:
+    """The muscle pulls less as it shortens: its load goes the other way.
+
+    Not where a reading of jaws on a stiff object but wanders while the load falls.
+    """
+    swing = np.sin(np.linspace(0.0, 4 * np.pi, 400))
+    held = 0.06 - 0.04 * swing
+    pull = 700.0 + 200.0 * swing
+    if wanders:
+        held = np.r_[np.linspace(0.0, 0.06, 100), np.full(200, 0.06)]
+        held = np.r_[held, np.linspace(0.06, 0.062, 100)]
+        pull = np.r_[np.linspace(300.0, 310.0, 100), np.linspace(310.0, 900.0, 200)]
+        pull = np.r_[pull, np.linspace(900.0, 500.0, 100)]
+    told = run(
+        pressure=np.full(400, 4e5) + noise(400, 1e3), contraction=held, force=pull,
+        grip=(pull - 240.0) / 4,
+    )  # fmt: skip
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    rubbing = JAWED.with_effect(LinkageFriction(loss=0.1))
+    share = _one(rubbing, course, Signal.GRIP) / _one(JAWED, course, Signal.GRIP)
+    way = np.sign(np.gradient(pull if wanders else held))
+    clear = (np.abs(np.gradient(pull)) > 1.0) & (pull > 400.0)
+    assert np.mean(np.abs(share - (1 - 0.1 * way))[clear] < 0.01) > 0.9
+
+
 def _held(size: int = 201) -> tuple[Course, Array]:
     """A grasp read by a noisy force cell, its smooth column off by a cut corner."""
     force = 800.0 - 400.0 * np.abs(np.linspace(-1.0, 1.0, size))
