@@ -134,10 +134,10 @@ def _grown(
     around = design(problem, here.fit.point, listed)
     evidence = {one: around.fit(one).evidence for one in around.members}
     ranked = sorted(evidence, key=lambda one: -evidence[one])
-    causes: dict[tuple[str, ...], list[Member]] = {}
+    causes: dict[str, list[Member]] = {}
     for one in ranked:
         if _is_cause(kind, one.candidate):
-            causes.setdefault(one.candidate.kind, []).append(one)
+            causes.setdefault(one.candidate.name, []).append(one)
     forms = [one for own in causes.values() for one in own[:FORMS]]
     others = [one for one in leaders(evidence) if not _is_cause(kind, one.candidate)]
     return _fitted(problem, here, forms), _fitted(problem, here, others[:NEXT])
@@ -145,9 +145,9 @@ def _grown(
 
 def _kinds(rivals: Iterable[Rival]) -> list[Rival]:
     """Give the first form of each cause: its other forms are no rivals of it."""
-    found: dict[tuple[str, ...], Rival] = {}
+    found: dict[str, Rival] = {}
     for rival in rivals:
-        found.setdefault(rival.candidates[-1].kind, rival)
+        found.setdefault(rival.candidates[-1].name, rival)
     return list(found.values())
 
 
