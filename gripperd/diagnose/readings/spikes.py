@@ -77,6 +77,20 @@ def departures(values: Array, least: float, times: float) -> Mask:
     times
         Height that it has at least, in steps that are usual in the run and around it.
     """
+    mask = _departed(values, least, times)
+    if not mask.any():
+        return mask
+    # A higher one no longer hides the next, but what it stood beside is no other.
+    while True:
+        left = np.where(mask, np.nan, values)
+        beside = binary_dilation(mask, iterations=WIDEST)
+        more = _departed(left, least, times) & ~beside
+        if not more.any():
+            return mask
+        mask |= more
+
+
+def _departed(values: Array, least: float, times: float) -> Mask:
     mask = np.zeros(values.size, dtype=np.bool_)
     measured = np.flatnonzero(np.isfinite(values))
     signal = values[measured]
@@ -88,10 +102,6 @@ def departures(values: Array, least: float, times: float) -> Mask:
     for width in range(1, WIDEST + 1):
         for start in _returning(signal, width, height, steps, times):
             mask[measured[start : start + width]] = True
-    if mask.any():
-        # A higher one no longer hides the next, but what it stood beside is no other.
-        more = departures(np.where(mask, np.nan, values), least, times)
-        mask |= more & ~binary_dilation(mask, iterations=WIDEST)
     return mask
 
 
