@@ -15,7 +15,7 @@ import numpy as np
 
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InGripper
-from gripperd.model.memory import begin, between
+from gripperd.model.memory import begin, play
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
@@ -67,6 +67,6 @@ class LinkageBacklash(InGripper):
         if np.isnan(memory[0]) and value.size:
             side = min(2 * track.contraction[0] / AT_REST - 1, 1.0)
             memory[0] = value[0] + self.begun * max(side, -1.0) * self.width / 2
-        half = self.width / 2
-        pressed = self.closed * (track.grip > PRESSING)
-        return between(value - half + pressed * self.width, value + half, memory)
+        half, pressed = self.width / 2, self.closed * (track.grip > PRESSING)
+        free = np.asarray((1 - pressed) * half, np.float64)
+        return play(value + pressed * half, free, memory)

@@ -90,20 +90,13 @@ def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
     return np.interp(time - late, *known)
 
 
-def play(signal: Array, radius: float, state: Array) -> Array:
+def play(signal: Array, radius: float | Array, state: Array) -> Array:
     """Lost motion: follows the signal at a distance of at most the radius.
 
-    The state, shape ``(1,)``, is the last output; it begins at the first sample.
+    The state, shape ``(1,)``, is the last output; it begins at the first sample. The
+    radius may change from sample to sample.
     """
-    return compiled(_play)(signal, radius, state)
-
-
-def between(low: Array, high: Array, state: Array) -> Array:
-    """Lost motion between two sides that move, shape ``(n,)``: as far as they push.
-
-    The state, shape ``(1,)``, is the last output; it begins in their middle.
-    """
-    return compiled(_between)(low, high, state)
+    return compiled(_play)(signal, radius * np.ones_like(signal), state)
 
 
 def dahl(
@@ -186,26 +179,14 @@ def _lag(
     return out
 
 
-def _play(signal: Array, radius: float, state: Array) -> Array:
+def _play(signal: Array, radius: Array, state: Array) -> Array:
     out = np.empty_like(signal)
     last = state[0]
     for index in range(signal.size):
         goal = signal[index]
         if np.isnan(last):
             last = goal
-        last = min(max(last, goal - radius), goal + radius)
-        out[index] = last
-    state[0] = last
-    return out
-
-
-def _between(low: Array, high: Array, state: Array) -> Array:
-    out = np.empty_like(low)
-    last = state[0]
-    for index in range(low.size):
-        if np.isnan(last):
-            last = (low[index] + high[index]) / 2
-        last = min(max(last, low[index]), high[index])
+        last = min(max(last, goal - radius[index]), goal + radius[index])
         out[index] = last
     state[0] = last
     return out

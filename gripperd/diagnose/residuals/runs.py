@@ -20,7 +20,8 @@ class Runs(Track):
     slices: tuple[slice, ...]
     """Samples of each run."""
     beside: Array
-    """What a smooth force leaves out, if a cell errs, less that of the readings. [N]"""
+    """What a smooth force leaves out when a late cell speaks of it, less what it leaves
+    out of the reading. [N]"""
 
     @cached_property
     def apart(self) -> tuple[Track, ...]:
