@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
+from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.fit.candidates import candidates
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.problem import Problem
@@ -28,7 +29,7 @@ def _sweep() -> Array:
     return np.asarray(500e3 * (1 - np.abs(np.linspace(-1.0, 1.0, 60))))
 
 
-def _problem(pressures: Mapping[str, Array]) -> Problem:
+def _recording(pressures: Mapping[str, Array]) -> Recording:
     rng = np.random.default_rng(7)
     runs, start = [], 0.0
     for name, pressure in pressures.items():
@@ -41,7 +42,11 @@ def _problem(pressures: Mapping[str, Array]) -> Problem:
         }
         runs.append(Run(name, columns))
         start = time[-1] + 60.0
-    return problem_of(Recording("r", "0" * 64, tuple(runs)), MODEL, {})
+    return Recording("r", "0" * 64, tuple(runs))
+
+
+def _problem(pressures: Mapping[str, Array]) -> Problem:
+    return problem_of(_recording(pressures), MODEL, {})
 
 
 def _decided(problem: Problem, *known: str) -> dict[str, Array]:
@@ -67,6 +72,14 @@ def test_a_hold_that_a_leak_does_not_fit_was_kept() -> None:
     waits = _decided(problem, "leak")
     assert not waits["held"].any()
     np.testing.assert_allclose(waits["shut"], STEP * np.arange(200), atol=1.0)
+
+
+def test_a_diagnosis_goes_by_it_in_what_was_left_out_as_well() -> None:
+    told = diagnose(_recording(HELD), MODEL, {}, {"leak": EFFECTS["leak"]})
+    assert [entry.name for entry in told.named] == ["leak"]
+    for part in (told.split.train, told.split.test):
+        (held,) = (one for one in part.courses if one.run == "held")
+        assert not held.waiting.any()
 
 
 @pytest.mark.parametrize(
