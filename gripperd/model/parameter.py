@@ -88,14 +88,17 @@ def in_use(
     idle
         Names of parameters without a meaning, by the word that takes it.
     """
-    without = {name for word in words(effect) for name in idle.get(word, ())}
+    chosen = words(effect).values()
+    without = {name for word in chosen for name in idle.get(word, ())}
     return {n: one for n, one in parameters(effect).items() if n not in without}
 
 
-def words(effect: "DataclassInstance") -> list[str]:
-    """Give what an effect has chosen where a parameter is a word."""
+def words(effect: "DataclassInstance") -> dict[str, str]:
+    """Give what an effect has chosen, by the names of the parameters that are words."""
     known = parameters(effect)
-    return [getattr(effect, name) for name, one in known.items() if one.choices]
+    return {
+        name: str(getattr(effect, name)) for name, one in known.items() if one.choices
+    }
 
 
 def _known(declared: Field[Any]) -> Parameter:

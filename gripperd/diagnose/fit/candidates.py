@@ -42,7 +42,7 @@ class Candidate:
         """Its name, and the words it chose, such as the channel that is late."""
         if self.effect is None:
             return (self.name,)
-        return (self.name, *map(str, words(self.effect)))
+        return (self.name, *words(self.effect).values())
 
     @property
     def doubles(self) -> tuple[str, ...]:
@@ -158,7 +158,8 @@ def forms(kind: type[Effect]) -> list[Effect]:
 
 def _bases(effect: Effect) -> list[str]:
     """Names of the effects that its words are about."""
-    return [effect.rests_on[one] for one in words(effect) if one in effect.rests_on]
+    chosen = words(effect).values()
+    return [effect.rests_on[word] for word in chosen if word in effect.rests_on]
 
 
 def _starts_again(effect: Effect) -> bool:

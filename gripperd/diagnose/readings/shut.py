@@ -151,8 +151,8 @@ def _opened(course: Course) -> Mask:
     rises = (rise > REFILLED * noise) & (lost > BACK * rise) & ~few
     rises &= still > 2 * SETTLED + lasts
     for row in np.flatnonzero(rises):
-        near = np.abs(time - time[row]) <= lasts
-        found[row] = rise[row] >= np.nanmax(np.where(near & rises, rise, -np.inf))
+        near = rises & (np.abs(time - time[row]) <= lasts)
+        found[row] = rise[row] >= np.max(rise[near])
     return found
 
 

@@ -111,11 +111,11 @@ def _with(
     before = here.fit
     going.sort(key=lambda one: not bears_out(problem, before, one.fit, [kind.signal]))
     told, without = needed(problem, going[0], found.threshold)
-    own, *alike = (rival.candidates[-1] for rival in _kinds(going))
+    own, *alike = (rival.candidates[-1] for rival in _first_forms(going))
     if own not in told.candidates:
         return found, best
     stand_ins = _stand_ins(best) | {own: alike}
-    causes = _kinds((*going, *lasting))
+    causes = _first_forms((*going, *lasting))
     rivals = sorted((*tried, *causes, *others), key=lambda rival: -rival.evidence)
     places = (
         Place(bare, tuple(_weighed(problem, told, index, stand_ins.get(one, []))))
@@ -143,7 +143,7 @@ def _grown(
     return _fitted(problem, here, forms), _fitted(problem, here, others[:NEXT])
 
 
-def _kinds(rivals: Iterable[Rival]) -> list[Rival]:
+def _first_forms(rivals: Iterable[Rival]) -> list[Rival]:
     """Give the first form of each cause: its other forms are no rivals of it."""
     found: dict[str, Rival] = {}
     for rival in rivals:

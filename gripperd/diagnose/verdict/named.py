@@ -14,7 +14,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.model.effect import Effect, Signal
-from gripperd.model.parameter import in_use, parameters
+from gripperd.model.parameter import in_use, words
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,13 +52,7 @@ class Named:
     @property
     def chosen(self) -> dict[str, str]:
         """Words that say which of several it is, such as the channel that is late."""
-        if self.effect is None:
-            return {}
-        return {
-            name: str(getattr(self.effect, name))
-            for name, known in parameters(self.effect).items()
-            if known.choices
-        }
+        return words(self.effect) if self.effect else {}
 
 
 def named(
