@@ -30,6 +30,9 @@ DRIVEN = 0.02
 OPPOSED = 0.95
 """Share of the way on which the load falls as they close, or rises as they open: where
 a machine moves them 0.99; on objects, whose jaws but seem to move, up to 0.8. [-]"""
+HELD = 0.05
+"""Share of its height by which a pressure changes under a machine, at most: a regulator
+holds it. [-]"""
 TURNED = 4e-4
 """Half the way back, of a muscle inside a mount, over which its friction turns. [-]"""
 
@@ -95,12 +98,13 @@ def _leaned(track: Runs) -> Runs:
 def _rubbing(load: Array, run: Track) -> Array:
     """Joints rub the way their load goes: jaws on an object hardly travel.
 
-    But where a machine moves them the load falls as they close, and rises as they open:
-    there they rub the way they go.
+    But where a machine moves them against a pressure that is held, the load falls as
+    they close, and rises as they open: there they rub the way they go.
     """
     work = np.nan_to_num(np.diff(load) * np.diff(run.contraction))
     falls = -work.sum() > OPPOSED * np.abs(work).sum()
-    driven = falls and np.ptp(run.contraction) > DRIVEN
+    held = np.ptp(run.pressure) < HELD * np.max(np.abs(run.pressure))
+    driven = falls and held and np.ptp(run.contraction) > DRIVEN
     return run.direction if driven else leaning(load)
 
 
