@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gripperd.effects.valve_dead_band import ValveDeadBand
+from gripperd.effects.valve_dead_band import Spool, ValveDeadBand
 from gripperd.model import Muscle
 from gripperd.model.track import Array
 from tests.effects.tracks import track_of
@@ -38,3 +38,30 @@ def test_speed_makes_no_difference(muscle: Muscle) -> None:
 
 def test_a_steady_pressure_is_taken_in_the_middle_of_the_band() -> None:
     assert ValveDeadBand(width=WIDTH).settled(200e3, (0.0, 500e3)) == 200e3
+
+
+UP_DOWN = np.r_[np.arange(0.0, 101e3, 1e3), np.arange(99e3, -1e3, -1e3)]
+
+
+def _stuck(asked: Array, muscle: Muscle, known: Array | float = np.nan) -> Array:
+    effect = ValveDeadBand(width=WIDTH, spool=Spool.STICKS)
+    track = track_of(muscle, command=asked, pressure=known)
+    return effect.along(asked, track, effect.rest())
+
+
+def test_a_spool_that_sticks_lets_go_a_width_behind_and_is_late_no_more(
+    muscle: Muscle,
+) -> None:
+    found = _stuck(UP_DOWN, muscle)
+    assert found[:5].tolist() == [0.0] * 5
+    assert found[5:101].tolist() == UP_DOWN[5:101].tolist()
+    assert found[101:105].tolist() == [100e3] * 4
+    assert found[105:].tolist() == UP_DOWN[105:].tolist()
+
+
+def test_how_it_began_is_taken_from_the_pressure_that_was_measured(
+    muscle: Muscle,
+) -> None:
+    assert _stuck(UP_DOWN, muscle, UP_DOWN)[:5].tolist() == UP_DOWN[:5].tolist()
+    waited = np.where(UP_DOWN > WIDTH, UP_DOWN, 300.0)
+    assert _stuck(UP_DOWN, muscle, waited)[:5].tolist() == [300.0] * 5

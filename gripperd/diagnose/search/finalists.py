@@ -38,8 +38,8 @@ def finalists(
     if not best:
         return []
     # A threshold makes the linear rank of some unfair to them: known doubles of the
-    # leader are heard as well.
-    doubles = best[0].candidate.doubles
+    # leader are heard as well, and what it may be in other words.
+    doubles = {best[0].candidate.name, *best[0].candidate.doubles}
     late = [one for one in best[FINALISTS:] if one.candidate.name in doubles]
     first = heard(problem, singles, [(one,) for one in best], FINALISTS)
     alone = (

@@ -9,8 +9,13 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.finalists import finalists, heard, leaders
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.tapered_ends import TaperedEnds
 from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_dead_band import Spool, ValveDeadBand
+from gripperd.effects.valve_gain import ValveGain
+from gripperd.effects.valve_lag import ValveLag
+from gripperd.effects.valve_nonlinearity import ValveNonlinearity
 from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model.effect import Signal
 
@@ -65,6 +70,33 @@ def test_the_best_form_leads_for_its_kind(blank: Problem) -> None:
     point = Point(np.zeros(len(blank.constants)))
     early, late, rub = design(blank, point, (EARLY, LATE, RUB)).members
     assert leaders({early: 5.0, rub: 7.0, late: 6.0}) == [rub, late]
+
+
+def test_what_the_leader_may_be_in_other_words_is_heard_however_it_ranks(
+    blank: Problem,
+) -> None:
+    """What sticks beyond a threshold has a low rank before it is fitted."""
+    trails, sticks = (
+        Candidate("valve_dead_band", ValveDeadBand(width=5e3, spool=spool))
+        for spool in Spool
+    )
+    others = [
+        Candidate(one.name, one)
+        for one in (
+            ValveOffset(offset=2e3), ValveGain(error=0.02), ValveLag(share=1.0),
+            SupplySaturation(share=1.0), ValveNonlinearity(bow=2e3),
+        )
+    ]  # fmt: skip
+    point = Point(np.zeros(len(blank.constants)))
+    around = design(blank, point, (trails, *others, sticks))
+    ranked = {one: -float(place) for place, one in enumerate(around.members)}
+    alone = {
+        members[0].candidate
+        for members in finalists(blank, around, ranked, thrifty=True)
+        if len(members) == 1
+    }
+    assert {trails, sticks} <= alone
+    assert others[-1] not in alone
 
 
 def test_nothing_is_fitted_when_nothing_leaves_a_trace(blank: Problem) -> None:
