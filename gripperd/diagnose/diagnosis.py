@@ -23,10 +23,10 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
+from gripperd.diagnose.search.reading import as_read
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.search.resting import with_resting_sign, with_sign_beside
+from gripperd.diagnose.search.resting import with_sign_beside
 from gripperd.diagnose.search.rivalry import Contest, contest
-from gripperd.diagnose.search.shut import with_valve_shut
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.search.stiction import with_stiction
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
@@ -167,15 +167,17 @@ def _diagnosed(
 ) -> Diagnosis:
     rng = np.random.default_rng(seed)
     listed, untested = candidates(library, parts.train, _columns(recording))
-    progress("friction at rest", 0.2)
-    train = with_valve_shut(with_resting_sign(parts.train, listed), listed)
+    progress("friction at rest, and valves", 0.2)
+    train = as_read(parts.train, listed)
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
     beside = with_sign_beside(found.problem, found.best)
     if beside is not found.problem:
         train = replace(train, model=beside.model)
         found = search(train, listed, rng)
-    known = replace(parts.test, model=train.model, courses=train.courses)
+    known = replace(
+        parts.test, model=train.model, courses=train.courses, band=train.band
+    )
     parts = replace(parts, train=train, test=known)
     progress("rivals", 0.7)
     best = contest(found, listed)

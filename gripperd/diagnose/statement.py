@@ -8,6 +8,7 @@ from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.recording import Contradiction, Rejection
+from gripperd.diagnose.search.sleep import SLEEPS
 from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed
@@ -77,7 +78,8 @@ def _effect(entry: Named) -> str:
 def _shown(diagnosis: Diagnosis, entry: Named) -> str:
     if entry.effect is None:
         return ""
-    return f": {entry.effect.shows}{_held(diagnosis, entry)}"
+    beside = f"{_held(diagnosis, entry)}{_asleep(diagnosis, entry)}"
+    return f": {entry.effect.shows}{beside}"
 
 
 def _held(diagnosis: Diagnosis, entry: Named) -> str:
@@ -86,6 +88,16 @@ def _held(diagnosis: Diagnosis, entry: Named) -> str:
     if not more or entry.name not in DRY:
         return ""
     return f"; what rests it holds up to {1 + more:.1f} times as much here"
+
+
+def _asleep(diagnosis: Diagnosis, entry: Named) -> str:
+    """Say that a band is all that is known of where a regulator sleeps."""
+    if entry.name != SLEEPS or not diagnosis.found.problem.band:
+        return ""
+    return (
+        "; it sleeps inside that band, moves in stairs, and nothing foretells where"
+        " inside the pressure rests"
+    )
 
 
 def _corrected(diagnosis: Diagnosis, entry: Named) -> str:

@@ -10,6 +10,8 @@ References
        ed., Oxford, 2012, section 7.2: prediction error decomposition.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
@@ -33,24 +35,47 @@ def whitened(columns: Array, time: Array, noise: Noise) -> Array:
     -------
     Innovations, shape ``(n, k)``. [-]
     """
-    return innovations(columns, *law_of(time, noise))
+    return innovations(columns, law_of(time, noise))
 
 
-def law_of(time: Array, noise: Noise) -> tuple[Array, Array]:
-    """Steps between the samples, and what :func:`innovations` needs of the noise."""
+class Law(NamedTuple):
+    """What :func:`innovations` needs of a noise."""
+
+    steps: Array
+    """To each sample, in usual ones, shape ``(n,)``. [-]"""
+    ages: Array
+    """The same in memories of the drift. [-]"""
+    sizes: Array
+    """Standard deviation, correlation, standard deviation of the drift."""
+
+
+def law_of(time: Array, noise: Noise, ages: Array | None = None) -> Law:
+    """Give the law of a noise.
+
+    Parameters
+    ----------
+    time
+        Of the samples, rising within a run, shape ``(n,)``. [s]
+    noise
+        Of the residual.
+    ages
+        Memories that its drift has been through by each sample, where it does not go by
+        the clock, shape ``(n,)``. [-]
+    """
     step = np.diff(time, prepend=time[:1])
     usual = float(np.median(step[1:])) if step.size > 1 else 1.0
+    aged = step / noise.memory if ages is None else np.diff(ages, prepend=ages[:1])
     slow = max(noise.drift, 1e-6 * noise.std)
-    return step, np.array([noise.std, noise.correlation, usual, slow, noise.memory])
+    return Law(step / usual, aged, np.array([noise.std, noise.correlation, slow]))
 
 
-def innovations(columns: Array, step: Array, law: Array) -> Array:
+def innovations(columns: Array, law: Law) -> Array:
     """Map columns as :func:`whitened` does, by a law that is known already."""
-    return compiled(_innovations)(np.ascontiguousarray(columns), step, law)
+    return compiled(_innovations)(np.ascontiguousarray(columns), *law)
 
 
-def _innovations(columns: Array, step: Array, law: Array) -> Array:
-    fast, correlation, usual, slow, memory = law
+def _innovations(columns: Array, steps: Array, ages: Array, sizes: Array) -> Array:
+    fast, correlation, slow = sizes
     n, k = columns.shape
     out = np.empty((n, k))
     a = np.zeros(k)
@@ -58,9 +83,9 @@ def _innovations(columns: Array, step: Array, law: Array) -> Array:
     p11, p12, p22 = fast * fast, 0.0, slow * slow
     for i in range(n):
         if i > 0:
-            skipped = step[i] / usual
-            f = correlation ** max(1.0, np.round(skipped)) if correlation > 0 else 0.0
-            g = np.exp(-step[i] / memory)
+            skipped = max(1.0, np.round(steps[i]))
+            f = correlation**skipped if correlation > 0 else 0.0
+            g = np.exp(-ages[i])
             p11 = f * f * p11 + fast * fast * (1 - f * f)
             p12 = f * g * p12
             p22 = g * g * p22 + slow * slow * (1 - g * g)
@@ -88,15 +113,15 @@ def log_scale(time: Array, noise: Noise) -> float:
     return compiled(_log_scales)(*law_of(time, noise))
 
 
-def _log_scales(step: Array, law: Array) -> float:
-    fast, correlation, usual, slow, memory = law
+def _log_scales(steps: Array, ages: Array, sizes: Array) -> float:
+    fast, correlation, slow = sizes
     total = 0.0
     p11, p12, p22 = fast * fast, 0.0, slow * slow
-    for i in range(step.size):
+    for i in range(steps.size):
         if i > 0:
-            skipped = max(1.0, np.round(step[i] / usual))
+            skipped = max(1.0, np.round(steps[i]))
             f = correlation**skipped if correlation > 0 else 0.0
-            g = np.exp(-step[i] / memory)
+            g = np.exp(-ages[i])
             p11 = f * f * p11 + fast * fast * (1 - f * f)
             p12 = f * g * p12
             p22 = g * g * p22 + slow * slow * (1 - g * g)

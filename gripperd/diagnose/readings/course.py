@@ -37,6 +37,8 @@ class Course:
     """Time since the command last moved. [s]"""
     waiting: Array
     """The same, 0 where a regulator is taken to keep the pressure. [s]"""
+    on_stairs: bool = False
+    """Whether the pressure of its recording goes in stairs, which no trend follows."""
     slices: tuple[slice, ...] = (slice(None),)
     """Samples of each sweep."""
     start: float = 0.0
@@ -105,6 +107,7 @@ def joined(courses: Sequence[Course]) -> Course:
         direction=np.concatenate([course.direction for course in courses]),
         still=np.concatenate([course.still for course in courses]),
         waiting=np.concatenate([course.waiting for course in courses]),
+        on_stairs=any(course.on_stairs for course in courses),
         slices=tuple(
             slice(end - len(course), end)
             for course, end in zip(courses, ends, strict=True)

@@ -9,10 +9,11 @@ import numpy as np
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
-from gripperd.diagnose.readings.level import MOVES, levels
+from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
+from gripperd.diagnose.readings.stairs import MOVES, Sweep, noise_on_stairs
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.errors import InputError
 from gripperd.model.compiled import compiled
@@ -70,9 +71,16 @@ def courses(
     for name, std in recording.noise.items():
         if name in noises and std > noises[name].std:
             noises[name] = Noise(std, noises[name].correlation)
+    stepped = noise_on_stairs([
+        Sweep(sweep.columns["current"], sweep.columns["pressure"])
+        for sweep in sweeps
+        if sweep.has("current") and sweep.has("pressure")
+    ])  # fmt: skip
+    if stepped:
+        noises["pressure"] = stepped
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
     found = [
-        _course(sweep, noises, cycle, repeat, start)
+        _course(sweep, noises, cycle, repeat, start, on_stairs=bool(stepped))
         for sweep, cycle, repeat in zip(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
@@ -84,16 +92,22 @@ def courses(
 
 
 def _course(
-    sweep: Run, noises: Mapping[str, Noise], cycle: Array, repeat: float, start: float
+    sweep: Run,
+    noises: Mapping[str, Noise],
+    cycle: Array,
+    repeat: float,
+    start: float,
+    *,
+    on_stairs: bool,
 ) -> Course:
     time = sweep.columns["time"]
-    smoothed = levels(sweep, noises)
+    smoothed = levels(sweep, noises, on_stairs=on_stairs)
     known, still = smoothed.get("contraction"), _stillness(sweep)
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat),
         np.zeros_like(time) if known is None else contracting(known),
-        still, still, start=start,
+        still, still, on_stairs, start=start,
     )  # fmt: skip
 
 

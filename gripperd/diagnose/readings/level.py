@@ -17,6 +17,7 @@ from gripperd.diagnose.noise.smoothing import (
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.recording import Run
+from gripperd.diagnose.readings.stairs import MOVES
 from gripperd.diagnose.readings.travel import contracting, leaning, reversal
 from gripperd.model.track import Array
 
@@ -25,13 +26,13 @@ QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
-MOVES = 5e-5
-"""Change of current that is a new command: 0.3 % of the span. [A]"""
 LEAST = 20
 """Samples that a plane is laid through."""
 
 
-def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
+def levels(
+    sweep: Run, noises: Mapping[str, Noise], *, on_stairs: bool = False
+) -> dict[str, Smooth]:
     """Take the noise off every column that effects look at.
 
     Parameters
@@ -40,6 +41,8 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
         Without a pause.
     noises
         Of each measured column, by its name.
+    on_stairs
+        Whether the pressure goes in stairs that no trend can follow.
 
     Returns
     -------
@@ -60,7 +63,9 @@ def levels(sweep: Run, noises: Mapping[str, Noise]) -> dict[str, Smooth]:
         found["length"] = _length(sweep, noises)
         found["contraction"] = _steady(_unswung(sweep, found["contraction"]))
     if "pressure" in found and sweep.has("current"):
-        found["pressure"] = _beside_command(sweep, found["pressure"], noises)
+        found["pressure"] = _beside_command(
+            sweep, found["pressure"], noises, on_stairs=on_stairs
+        )
     elif "pressure" in found:
         found["pressure"] = _bending(
             sweep, _leaping(sweep, "pressure", found["pressure"])
@@ -142,7 +147,9 @@ def _unswung(sweep: Run, plain: Smooth) -> Smooth:
     return known
 
 
-def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> Smooth:
+def _beside_command(
+    sweep: Run, plain: Smooth, noises: Mapping[str, Noise], *, on_stairs: bool
+) -> Smooth:
     """Pressure as a regulator makes it of the command, plus a smooth difference.
 
     The command has corners that no trend can follow, and no noise. Taken when likelier
@@ -166,6 +173,9 @@ def _beside_command(sweep: Run, plain: Smooth, noises: Mapping[str, Noise]) -> S
         if likelihood > best.likelihood:
             value, rate = beside.value + made, beside.rate + np.gradient(made, time)
             best = beside._replace(value=value, rate=rate, likelihood=likelihood)
+    if on_stairs:
+        stepped = smooth(time, pressure, variance, bends=True, tried=OF_LENGTH)
+        best = max(best, stepped, key=lambda one: one.likelihood)
     return best
 
 

@@ -6,6 +6,7 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 
 
 class Block(NamedTuple):
@@ -17,6 +18,8 @@ class Block(NamedTuple):
     """Samples to explain, shape ``(n,)``."""
     noise: Noise | None = None
     """Its own; none for that of the signal. [SI]"""
+    ages: Array | None = None
+    """Memories that its drift has been through, shape ``(n,)``; none for its clock."""
 
 
 class Group(NamedTuple):

@@ -1,5 +1,6 @@
 """How loud each signal is: white noise, its memory, and drift."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from gripperd.diagnose.noise.drift import thinned, with_drift
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course, is_table
+from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.quiet import driven, repeated, vented
@@ -46,6 +48,8 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
         indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
         step = coarse_step(c.column(signal.value) for c in problem.courses)
         noise = quick_noise((residuals[i] for i in indices), step)
+        if signal is Signal.PRESSURE:
+            noise = _on_stairs(problem.courses) or noise
         if is_table(problem.courses):
             # Neighbours are no repeats of each other; instruments of a test stand.
             noise = Noise(POINTS * problem.full_scale[signal], 0.0)
@@ -57,6 +61,12 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
         quiet = thinned(quiet or repeated(*asked, first=True))
         found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
     return _handed_on(found, problem)
+
+
+def _on_stairs(sweeps: Sequence[Course]) -> Noise | None:
+    return noise_on_stairs([
+        Sweep(course.column("current"), course.column("pressure")) for course in sweeps
+    ])  # fmt: skip
 
 
 def audible(noise: Noise, signal: Signal, sweeps: tuple[Course, ...]) -> Noise:

@@ -7,9 +7,10 @@ from functools import cached_property
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.whitening import innovations, law_of
+from gripperd.diagnose.noise.whitening import Law, innovations, law_of
 from gripperd.diagnose.readings.course import Course, joined
 from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.residuals.asleep import asleep
 from gripperd.diagnose.residuals.block import Block, Group
 from gripperd.diagnose.residuals.constants import NUISANCE, Constant, moved
 from gripperd.diagnose.residuals.doubt import own_shares
@@ -41,6 +42,8 @@ class Problem:
     """Samples of each course that take part; all when empty."""
     dwells: tuple[Block, ...] = ()
     """Stretches that are judged once more, each about a level of its own."""
+    band: float = 0.0
+    """Width within which the regulator sleeps: there its pressure is anywhere. [Pa]"""
     processes: int = 1
     """How many fit side by side."""
 
@@ -58,8 +61,16 @@ class Problem:
                 if self.kept:
                     good &= self.kept[index]
                 if good.sum() >= 4:
-                    found.append(Block(index, signal, good))
+                    found.append(self._resting(Block(index, signal, good)))
         return (*found, *self.dwells)
+
+    def _resting(self, block: Block) -> Block:
+        """Give the noise of a sleep to the pressures of a regulator that sleeps."""
+        regulator = self.model.regulator
+        if block.signal is not Signal.PRESSURE or regulator is None or not self.band:
+            return block
+        noise, course = self.noises[block.signal], self.courses[block.course]
+        return asleep(block, course, regulator, noise, self.band)
 
     def _has_part(self, signal: Signal) -> bool:
         if signal is Signal.PRESSURE:
@@ -203,13 +214,13 @@ class Problem:
     def white(self, columns: Sequence[Array], index: int) -> Array:
         """Whiten columns of one block, shape ``(n, k)``."""
         shared = self._shares[index][:, None] * np.column_stack(columns)
-        return innovations(shared, *self._laws[index])
+        return innovations(shared, self._laws[index])
 
     @cached_property
-    def _laws(self) -> list[tuple[Array, Array]]:
-        """Steps and law of the noise block by block."""
+    def _laws(self) -> list[Law]:
+        """Law of the noise block by block."""
         return [
-            law_of(time, block.noise or self.noises[block.signal])
+            law_of(time, block.noise or self.noises[block.signal], block.ages)
             for block, time in zip(self.blocks, self.times, strict=True)
         ]
 

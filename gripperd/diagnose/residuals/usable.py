@@ -79,7 +79,11 @@ def _missed(course: Course, name: str) -> Mask:
     mean = uniform_filter1d(off, NEIGHBOURS, mode="nearest")
     sure = OFF * (known.variance / NEIGHBOURS) ** 0.5
     least = CORNER * float(np.max(np.abs(known.value)))
-    return binary_dilation(np.abs(mean) > max(sure, least), iterations=2)
+    missed = np.abs(mean) > max(sure, least)
+    if course.on_stairs:
+        # Corners lie so close that neighbours are off to either side.
+        missed |= np.abs(off) > max(OFF * known.variance**0.5, least)
+    return binary_dilation(missed, iterations=2)
 
 
 def _turning(sign: Array) -> Mask:

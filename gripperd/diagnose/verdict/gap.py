@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.asleep import ANYWHERE
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
@@ -50,18 +51,25 @@ class Gap:
     noise_floor: float
     """Repeatability of the measurement itself."""
     ci95_after: tuple[float, float]
+    asleep: float = 0.0
+    """What nobody foretells beside it: where a regulator rests in its band."""
+
+    @property
+    def reachable(self) -> float:
+        """What the best model can reach: the noise floor, and what nobody foretells."""
+        return float(np.hypot(self.noise_floor, self.asleep))
 
     @property
     def closed(self) -> float:
         """Share of the mean square above the noise that recalibration left. [-]."""
-        floor = self.noise_floor**2
+        floor = self.reachable**2
         left = self.recalibrated**2 - floor
         return 1 - (self.after**2 - floor) / left if left > 0 else 0.0
 
     @property
     def left_open(self) -> float:
-        """What better constants alone leave, over the noise floor. [-]."""
-        return self.recalibrated / self.noise_floor
+        """What better constants alone leave, over what can be reached. [-]."""
+        return self.recalibrated / self.reachable
 
     @property
     def is_open(self) -> bool:
@@ -71,7 +79,7 @@ class Gap:
     @property
     def is_spoilt(self) -> bool:
         """Whether effects leave a signal far worse than its noise and constants do."""
-        least = max(self.recalibrated, self.noise_floor)
+        least = max(self.recalibrated, self.reachable)
         return self.ci95_after[0] > REACHED * least
 
     def confirms(self, effects: int) -> bool:
@@ -79,14 +87,17 @@ class Gap:
 
         A crowd of effects can imitate one that no library holds, but not closely. What
         is worse by no more than chance, where nothing was left to close, says nothing;
-        where something was, a name closes some of it.
+        where something was, a name closes some of it. Where a regulator sleeps a few
+        rests weigh as much as all that moves, and are off by chance.
         """
-        if self.ci95_after[0] > WORSE * max(self.recalibrated, self.noise_floor):
+        if self.asleep:
+            return not self.is_spoilt
+        if self.ci95_after[0] > WORSE * max(self.recalibrated, self.reachable):
             return False
         if self.left_open > OPEN and self.after >= self.recalibrated:
             return False
         crowd = effects > CROWD
-        reached = self.after <= (CLOSELY if crowd else REACHED) * self.noise_floor
+        reached = self.after <= (CLOSELY if crowd else REACHED) * self.reachable
         return reached or self.closed >= (MOST_CLOSED if crowd else LEAST_CLOSED)
 
 
@@ -118,6 +129,7 @@ def gaps(
             _rms(after[signal]),
             noises[signal].floor,
             _interval(after[signal], rng),
+            ANYWHERE * test.band if signal is Signal.PRESSURE else 0.0,
         )
         for signal in after
     }

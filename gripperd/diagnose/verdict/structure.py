@@ -55,7 +55,11 @@ def structures(problem: Problem, residuals: Sequence[Array]) -> tuple[Structure,
         for signal in problem.signals
         for along, components in _views(problem, white, signal)
     ]
-    found += [_ripple(problem, white, signal) for signal in problem.signals]
+    found += [
+        _ripple(problem, white, signal)
+        for signal in problem.signals
+        if not (problem.band and signal is Signal.PRESSURE)
+    ]
     return tuple(sorted(found, key=lambda one: one.p_value))
 
 

@@ -73,6 +73,27 @@ def _regulated(name: str, command: Array, pressure: Array) -> Run:
     return run(name, time=time, current=current, pressure=pressure)
 
 
+def test_a_pressure_on_stairs_keeps_their_corners() -> None:
+    # Up and down in 8 s and in 4, ten samples a second, 40 kPa a stair.
+    runs, truths = [], []
+    for place, size in enumerate((160, 80, 120)):
+        command, held, stood = triangle(size, 20e3, 480e3), 20e3, []
+        for goal in command:
+            held = goal if abs(goal - held) > 40e3 else held
+            stood.append(held)
+        truths.append(np.array(stood))
+        seed = 10 * place
+        read = truths[-1] + noise(size, 2e3, seed)
+        current = 0.004 + 0.016 * command / 500e3
+        runs.append(run(f"way {place}", current=current, pressure=read))
+    rest = np.full(120, 200e3)
+    runs.append(run("rest", current=0 * rest + 0.01, pressure=rest + noise(120, 2e3)))
+    *ways, _ = cut(*runs)
+    for way, true in zip(ways, truths, strict=True):
+        assert way.on_stairs
+        assert np.std(way.level("pressure") - true) < 1.25 * 2e3
+
+
 def test_a_sample_in_the_middle_of_a_step_makes_no_noise_of_the_others() -> None:
     # Five samples a second of a regulator that follows within 15 ms.
     command = np.repeat([100e3, 400e3, 200e3, 450e3], 100)

@@ -318,6 +318,20 @@ def test_noise_about_a_smooth_pressure_is_no_cut_corner() -> None:
     assert usable(_ramped(0.0), Signal.FORCE).all()
 
 
+def test_on_stairs_each_corner_that_the_smooth_pressure_cuts_is_left_out() -> None:
+    plain = _ramped(0.0)
+    # Off to either side in turn: five neighbours on the average by nothing.
+    off = np.zeros(400)
+    off[60:80] = 5e3 * (-1.0) ** np.arange(20)
+    known = plain.smooth["pressure"]
+    smooth = {**plain.smooth, "pressure": known._replace(value=known.value + off)}
+    cut = replace(plain, smooth=smooth)
+    assert usable(cut, Signal.FORCE)[60:80].any()
+    good = usable(replace(cut, on_stairs=True), Signal.FORCE)
+    assert not good[60:80].any()
+    assert np.mean(good) > 0.9
+
+
 def test_a_smooth_pressure_is_never_held_to_less_than_its_transmitter_is_good_for() -> (
     None
 ):

@@ -180,6 +180,18 @@ def test_a_name_closes_some_of_what_there_is_to_close(
     assert gap.confirms(1) is confirms
 
 
+@pytest.mark.parametrize(("after", "confirms"), [(9.5, True), (12.0, False)])
+def test_a_signal_that_sleeps_in_a_band_must_only_not_leave_it(
+    after: float, *, confirms: bool
+) -> None:
+    """Beside a floor of 3 N nobody foretells 8 N: 8.5 N in all can be reached."""
+    gap = replace(_gap(9.0, after), asleep=8.0)
+    assert gap.reachable == pytest.approx(73**0.5)
+    assert not gap.is_open
+    assert gap.confirms(1) is confirms
+    assert not replace(gap, asleep=0.0).confirms(1)
+
+
 @pytest.mark.parametrize(
     ("recalibrated", "low", "spoilt"),
     [(2.5, 3.8, False), (2.5, 4.0, True), (9.0, 11.0, False), (9.0, 12.0, True)],

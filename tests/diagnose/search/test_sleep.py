@@ -1,0 +1,69 @@
+"""A regulator that sleeps, written from its description."""
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.diagnosis import diagnose
+from gripperd.diagnose.fit.candidates import candidates
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.sleep import with_sleep
+from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.statement import statement
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.effects import EFFECTS
+from gripperd.model.effect import Signal
+from tests.diagnose.sleeping import NOISE, Spool, sleeps, sticks, stuck, trails
+from tests.diagnose.small import MODEL
+
+COLUMNS = frozenset({"time", "current", "pressure"})
+BAND = 25e3
+
+
+def _read(spool: Spool, *known: str) -> Problem:
+    problem = problem_of(stuck(spool, BAND), MODEL, {})
+    library = {name: EFFECTS[name] for name in known}
+    return with_sleep(problem, candidates(library, problem, COLUMNS)[0])
+
+
+def test_a_band_in_which_a_regulator_sleeps_is_told() -> None:
+    asleep = _read(sleeps, "valve_dead_band")
+    # It is up to a band behind its command, and right there when it has caught up.
+    assert 0.6 * BAND < asleep.band < 1.2 * BAND
+    assert asleep.noises[Signal.PRESSURE].std == pytest.approx(NOISE, rel=0.1)
+
+
+@pytest.mark.parametrize("spool", [trails, sticks])
+def test_a_spool_that_follows_once_it_is_loose_does_not_sleep(spool: Spool) -> None:
+    assert _read(spool, "valve_dead_band").band == 0.0
+
+
+def test_a_band_that_nothing_could_name_is_none() -> None:
+    assert _read(sleeps, "valve_lag").band == 0.0
+
+
+@pytest.mark.parametrize("spool", [sleeps, trails, sticks])
+def test_a_dead_band_is_named_however_a_spool_leaves_it(spool: Spool) -> None:
+    library = {
+        name: EFFECTS[name]
+        for name in (
+            "valve_dead_band", "valve_lag", "valve_nonlinearity", "valve_offset",
+            "valve_gain", "supply_saturation", "channel_delay",
+        )
+    }  # fmt: skip
+    told = diagnose(stuck(spool, BAND), MODEL, {}, library)
+    assert told.verdict is Verdict.NAMED
+    (entry,) = told.named
+    assert entry.name == "valve_dead_band"
+    gap = told.gaps[Signal.PRESSURE]
+    if spool is not sleeps:
+        assert gap.after < min(1.3 * NOISE, 0.6 * gap.recalibrated)
+    assert ("sleeps" in statement(told, entry)) is (spool is sleeps)
+
+
+def test_what_lies_within_the_band_is_not_held_against_what_is_named() -> None:
+    told = diagnose(
+        stuck(sleeps, BAND), MODEL, {}, {"valve_dead_band": EFFECTS["valve_dead_band"]}
+    )
+    residual = np.concatenate(told.split.train.residuals(told.explained))
+    assert np.std(residual) > 2 * NOISE
+    assert told.conclusion.signals == ()
