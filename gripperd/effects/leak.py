@@ -37,9 +37,9 @@ class Leak(InValve):
 
     with l what a shut valve has lost and q = p_1 - l, ``dl/dt = k q (q / 300 kPa)^n``
     while the command stands still and ``dl/dt = -l / r`` while it moves, and t the time
-    since it last moved: told to move, the regulator fills up. So does one that is taken
-    to keep the pressure while it is lost elsewhere. The last term is a regulator that
-    feeds the leak and droops.
+    since it last moved: told to move, the regulator fills up, or lets out what is left
+    above a command that falls. So it does if it is taken to keep the pressure while air
+    is lost elsewhere. The last term is a regulator that feeds the leak and droops.
 
     A hole lets through what goes with the root of a low pressure, an orifice that is
     choked as much as is there [2]_, a gap that the air creeps through the square of a
@@ -68,8 +68,8 @@ class Leak(InValve):
     """Time in which a regulator told to move fills up what was lost. [s]"""
 
     def rest(self) -> Array:
-        """Nothing lost."""
-        return np.zeros(1)
+        """Nothing lost of nothing."""
+        return np.zeros(2)
 
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Pressure of the moment before anything is lost: it droops at once. [Pa]."""

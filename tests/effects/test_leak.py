@@ -29,13 +29,27 @@ def test_a_shut_line_decays_with_its_rate(muscle: Muscle) -> None:
 def test_what_was_lost_is_filled_up_as_fast_as_the_regulator_fills(
     muscle: Muscle, refill: float, kept: float
 ) -> None:
-    # Half a minute at 400 kPa, then told 200 kPa within a tenth of a second.
+    # Half a minute at 400 kPa, then told 450 kPa within a tenth of a second.
     still, step = np.array([0.0, 30.0, 0.0]), np.array([0.0, 30.0, 0.1])
     effect = Leak(rate=1e-3, refill=refill)
-    found = _left(effect, muscle, [400e3, 400e3, 200e3], still=still, step=step)
+    found = _left(effect, muscle, [400e3, 400e3, 450e3], still=still, step=step)
     lost = 400e3 * (1 - exp(-0.03))
     assert found[1] == pytest.approx(400e3 - lost)
-    assert found[2] == pytest.approx(200e3 - kept * lost, abs=100.0)
+    assert found[2] == pytest.approx(450e3 - kept * lost, abs=100.0)
+
+
+@pytest.mark.parametrize(
+    ("told", "lacks"),
+    [(200e3, 0.0), (400e3 * exp(-0.03), 0.0), (395e3, 400e3 * (1 - exp(-0.03)) - 5e3)],
+    ids=["far down", "where it is", "above where it is"],
+)
+def test_what_is_left_is_let_out_to_a_command_that_falls(
+    muscle: Muscle, told: float, lacks: float
+) -> None:
+    still, step = np.array([0.0, 30.0, 0.0]), np.array([0.0, 30.0, 0.1])
+    effect = Leak(rate=1e-3, refill=1e4)
+    found = _left(effect, muscle, [400e3, 400e3, told], still=still, step=step)
+    assert found[2] == pytest.approx(told - lacks, abs=10.0)
 
 
 def test_what_a_regulator_keeps_is_not_lost(muscle: Muscle) -> None:
