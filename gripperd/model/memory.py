@@ -128,8 +128,8 @@ def leaked(
 ) -> Array:
     """Part of a signal that is lost while it stands still and filled up as it moves.
 
-    What is left sinks as ``dx/dt = -k x^(1 + n)``. Of a signal that falls by more than
-    was lost nothing is: what is left is let out to where it goes.
+    What is left sinks as ``dx/dt = -k x^(1 + n)``. No more is missing of a signal that
+    moves than it is above what was left: the rest is let out.
 
     Parameters
     ----------
@@ -141,7 +141,8 @@ def leaked(
         Share lost per time where the signal is 1 [1/s], the exponent n, above -1, by
         which that changes with the signal, and time constant of filling up. [s]
     state
-        What is lost so far, and the signal before, shape ``(2,)``; it is moved on.
+        What is lost so far, and what was left when the signal last stood still, shape
+        ``(2,)``; it is moved on.
     """
     return compiled(_leaked)(signal, step, still, law, state)
 
@@ -222,11 +223,8 @@ def _leaked(
 ) -> Array:
     out = np.empty_like(signal)
     rate, bend, refill = law
-    lost, before = state[0], state[1]
+    lost, rested = state[0], state[1]
     for index in range(signal.size):
-        if still[index] <= 0 and signal[index] < before:
-            lost = max(lost - (before - signal[index]), 0.0)
-        before = signal[index]
         left = signal[index] - lost
         if still[index] > 0 and left > 0 and rate > 0:
             # x^-n grows by n k t.
@@ -237,10 +235,10 @@ def _leaked(
                 left *= np.exp(-gone)
             else:
                 left *= np.exp(-np.log1p(bend * gone) / bend)
-            lost = signal[index] - left
+            lost, rested = signal[index] - left, left
         elif still[index] <= 0:
-            lost *= np.exp(-step[index] / refill)
+            lost = min(lost, signal[index] - rested) * np.exp(-step[index] / refill)
         lost = max(min(lost, signal[index]), 0.0)
         out[index] = lost
-    state[0], state[1] = lost, before
+    state[0], state[1] = lost, rested
     return out
