@@ -9,11 +9,11 @@ import numpy as np
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
-from gripperd.diagnose.readings.level import levels
+from gripperd.diagnose.readings.level import MOVES, levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
-from gripperd.diagnose.readings.stairs import MOVES, Sweep, noise_on_stairs
+from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.errors import InputError
 from gripperd.model.compiled import compiled

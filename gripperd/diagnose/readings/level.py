@@ -17,7 +17,6 @@ from gripperd.diagnose.noise.smoothing import (
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.recording import Run
-from gripperd.diagnose.readings.stairs import MOVES
 from gripperd.diagnose.readings.travel import contracting, leaning, reversal
 from gripperd.model.track import Array
 
@@ -26,6 +25,8 @@ QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
+MOVES = 5e-5
+"""Change of current that is a new command: 0.3 % of the span. [A]"""
 LEAST = 20
 """Samples that a plane is laid through."""
 

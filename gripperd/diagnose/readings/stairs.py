@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
+from gripperd.diagnose.readings.level import MOVES
 from gripperd.diagnose.readings.travel import travel
 from gripperd.model.track import Array
 
@@ -25,8 +26,6 @@ SEEN = 6.0
 """Way of the command that is clear of the noise, in standard deviations. [-]"""
 RESTS, CATCHES = 1 / 3, 5 / 3
 """Share of that way below which a pressure rests, and above which it catches up. [-]"""
-MOVES = 5e-5
-"""Change of current that is a new command: 0.3 % of the span. [A]"""
 SETTLED = 10
 """Samples in which a pressure may still go to where its command rests."""
 MANY = 40

@@ -6,7 +6,7 @@ import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.course import Course
-from gripperd.diagnose.readings.stairs import MOVES
+from gripperd.diagnose.readings.level import MOVES
 from gripperd.diagnose.residuals.block import Block
 from gripperd.model import Regulator
 from gripperd.model.memory import begin, play
