@@ -68,9 +68,6 @@ def courses(
         name: quick_noise(columns, coarse_step(columns))
         for name, columns in readings.items()
     }
-    for name, std in recording.noise.items():
-        if name in noises and std > noises[name].std:
-            noises[name] = Noise(std, noises[name].correlation)
     stepped = noise_on_stairs([
         Sweep(sweep.columns["current"], sweep.columns["pressure"])
         for sweep in sweeps
@@ -78,6 +75,9 @@ def courses(
     ])  # fmt: skip
     if stepped:
         noises["pressure"] = stepped
+    for name, std in recording.noise.items():
+        if name in noises and std > noises[name].std:
+            noises[name] = Noise(std, noises[name].correlation)
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
     found = [
         _course(sweep, noises, cycle, repeat, start, on_stairs=bool(stepped))

@@ -59,7 +59,7 @@ def noise_on_stairs(sweeps: Sequence[Sweep]) -> Noise | None:
 
     Told from where the command rests: neighbours on a stair know less of each other.
     """
-    known = [_known(sweep) for sweep in sweeps]
+    known = [one for sweep in sweeps if (one := _known(sweep)).current.size]
     rests = [rest for sweep in known for rest in _rests(sweep)]
     current = np.concatenate([np.empty(0), *(sweep.current for sweep in known)])
     if not rests or np.ptp(current) < MOVES:

@@ -38,7 +38,8 @@ def asleep(
         Width. [Pa]
     """
     moved = regulator.gain * play(course.column("current"), MOVES, begin())
-    way = np.cumsum(np.abs(np.diff(moved, prepend=moved[:1])))
+    # Before the first command that was read there was no way that anybody knows.
+    way = np.cumsum(np.nan_to_num(np.abs(np.diff(moved, prepend=moved[:1]))))
     ages = SAW * way / band + course.time / noise.memory
     drift = float(np.hypot(ANYWHERE * band, noise.drift))
     return block._replace(noise=replace(noise, drift=drift), ages=ages[block.good])

@@ -1,12 +1,15 @@
 """Whether a pressure goes in stairs, on regulators written from their description."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.model.track import Array
+from tests.diagnose.sleeping import sleeps, stuck
 from tests.diagnose.sweep import noise, triangle
 
 NOISE, STEP = 2e3, 0.05
@@ -121,4 +124,12 @@ def test_readings_that_are_missing_are_passed_over() -> None:
     for one in holed:
         one.pressure[::7] = np.nan
     unknown = Sweep(np.full(9, np.nan), np.full(9, 1e5))
-    assert noise_on_stairs([*holed, unknown]) is not None
+    assert noise_on_stairs([unknown]) is None
+    assert noise_on_stairs([*holed, unknown]) == noise_on_stairs(holed) is not None
+
+
+def test_a_noise_that_somebody_knows_counts_on_stairs_as_well() -> None:
+    told = replace(stuck(sleeps, 25e3), noise={"pressure": 5e3})
+    sweeps, noises = courses(told, 0.25)
+    assert sweeps[0].on_stairs
+    assert noises["pressure"].std == 5e3

@@ -5,7 +5,7 @@ import pytest
 
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.whitening import innovations, law_of
-from gripperd.diagnose.residuals.asleep import ANYWHERE, asleep
+from gripperd.diagnose.residuals.asleep import ANYWHERE, SAW, asleep
 from gripperd.diagnose.residuals.block import Block
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -17,9 +17,10 @@ BAND = 30e3
 QUIET = Noise(1e3, 0.0, drift=400.0, memory=50.0)
 
 
-def _sleeping(command: Array) -> Block:
+def _sleeping(command: Array, pressure: Array | None = None) -> Block:
     current = 0.004 + 0.016 * command / 500e3 + noise(command.size, 3e-6)
-    (course,) = cut(run(current=current, pressure=command))
+    read = command if pressure is None else pressure
+    (course,) = cut(run(current=current, pressure=read))
     block = Block(0, Signal.PRESSURE, np.arange(command.size) % 6 != 3)
     return asleep(block, course, REGULATOR, QUIET, BAND)
 
@@ -50,6 +51,18 @@ def test_it_forgets_as_a_saw_does_while_the_command_goes_on() -> None:
     # 500 Pa a sample: a tenth of the band in six, of which five are left.
     known = np.mean(saw * np.roll(saw, 100)) / np.mean(saw**2)
     assert _correlation(block, 400, 405) == pytest.approx(known, abs=0.1)
+
+
+def test_a_command_that_was_not_read_at_first_makes_nothing_unknown() -> None:
+    command = np.linspace(0.0, 500e3, 101)
+    whole = _sleeping(command).ages
+    command[[0, 1, 40]] = np.nan
+    holed = _sleeping(command, command[2:].max() * np.ones(101)).ages
+    assert whole is not None
+    assert holed is not None
+    # But for the way of the first two steps.
+    lost = SAW * 2 * 5e3 / BAND
+    assert (whole - holed)[-1] == pytest.approx(lost, rel=0.1)
 
 
 def test_stairs_in_a_band_look_like_its_noise() -> None:
