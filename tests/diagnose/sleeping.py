@@ -25,6 +25,11 @@ def sleeps(command: Array, band: float) -> Array:
     return np.array(found)
 
 
+def rounds(command: Array, band: float) -> Array:
+    """Go to the nearest multiple of the band."""
+    return np.asarray(band * np.round(command / band))
+
+
 def trails(command: Array, band: float) -> Array:
     """Follow half a band behind."""
     held, found = command[0], []

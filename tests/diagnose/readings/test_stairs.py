@@ -61,6 +61,16 @@ def hunting(command: Array) -> Array:
     return np.asarray(command + 12e3 * swing)
 
 
+def blocked(command: Array) -> Array:
+    """Nothing more from 310 to 450 kPa: it rests, and never catches up."""
+    return np.asarray(np.minimum(command, 310e3) + np.maximum(command - 450e3, 0.0))
+
+
+def steep(command: Array) -> Array:
+    """A curve that is steep at its end: it catches up, and never rests."""
+    return np.asarray(0.5 * command + 2.5 * np.maximum(command - 400e3, 0.0))
+
+
 def straight(command: Array) -> Array:
     """As it is asked, through a curve that is bent."""
     return command + 20e3 * np.sin(np.pi * command / HIGH)
@@ -100,7 +110,9 @@ def test_a_regulator_that_sleeps_goes_in_stairs(band: float, wakes: float) -> No
 
 
 @pytest.mark.parametrize(
-    "regulator", [late, behind, capped, hunting, straight], ids=lambda one: one.__name__
+    "regulator",
+    [late, behind, capped, hunting, blocked, steep, straight],
+    ids=lambda one: one.__name__,
 )
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_nothing_else_does(regulator: Regulator, seed: int) -> None:

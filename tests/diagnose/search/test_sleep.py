@@ -12,7 +12,7 @@ from gripperd.diagnose.statement import statement
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.model.effect import Signal
-from tests.diagnose.sleeping import NOISE, Spool, sleeps, sticks, stuck, trails
+from tests.diagnose.sleeping import NOISE, Spool, rounds, sleeps, sticks, stuck, trails
 from tests.diagnose.small import MODEL
 
 COLUMNS = frozenset({"time", "current", "pressure"})
@@ -35,6 +35,11 @@ def test_a_band_in_which_a_regulator_sleeps_is_told() -> None:
 @pytest.mark.parametrize("spool", [trails, sticks])
 def test_a_spool_that_follows_once_it_is_loose_does_not_sleep(spool: Spool) -> None:
     assert _read(spool, "valve_dead_band").band == 0.0
+
+
+def test_stairs_that_are_the_same_on_the_way_back_are_no_sleep() -> None:
+    """A set point that is rounded knows no way, and a dead band explains none of it."""
+    assert _read(rounds, "valve_dead_band").band == 0.0
 
 
 def test_a_band_that_nothing_could_name_is_none() -> None:
