@@ -69,17 +69,22 @@ def quick_noise(pieces: Iterable[Array], step: float = 0.0) -> Noise:
 
 
 def coarse_step(pieces: Iterable[Array]) -> float:
-    """Step of a converter so coarse that most readings repeat; 0 of a finer one.
+    """Step of a converter so coarse that its readings come again and again; 0 if none.
+
+    Neighbours need not repeat: on a slope of one step a sample none do, and yet the
+    differences tell next to nothing of the noise.
 
     Parameters
     ----------
     pieces
         Readings of runs as they came, shape ``(n,)`` each, in order of time.
     """
-    changes = [np.abs(np.diff(piece[np.isfinite(piece)])) for piece in pieces]
-    every = np.concatenate([np.empty(0), *changes])
-    moved = every[every > 0]
-    return float(np.median(moved)) if 0 < moved.size < 0.5 * every.size else 0.0
+    every = np.concatenate([np.empty(0), *pieces])
+    levels, counts = np.unique(every[np.isfinite(every)], return_counts=True)
+    again = counts > 1
+    if again.sum() < 2 or counts[again].sum() < 0.5 * counts.sum():
+        return 0.0
+    return float(np.diff(levels[again]).min())
 
 
 def _spread(pieces: list[Array], lag: int, step: float) -> float:

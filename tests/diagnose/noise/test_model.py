@@ -61,6 +61,16 @@ def test_steps_are_no_noise_though_a_coarse_converter_repeats_most_readings() ->
     assert found.std == pytest.approx(float(held.std()), rel=0.2)
 
 
+def test_a_coarse_converter_is_as_noisy_on_a_slope_as_at_rest() -> None:
+    step = 500 / 255
+    true = 0.6 * step * np.arange(SIZE)
+    read = np.round(step * np.round((true + noise(SIZE, 0.3)) / step), 3)
+    both_ways = [read, read[::-1]]
+    assert np.mean(np.diff(read) == 0) < 0.5
+    found = quick_noise(both_ways, coarse_step(both_ways))
+    assert 1.0 < found.std / np.std(read - true) < 1.5
+
+
 def test_a_fine_converter_has_no_step_to_speak_of() -> None:
     assert coarse_step([noise(SIZE, 2.5)]) == 0.0
     assert coarse_step([np.full(50, 2.0)]) == 0.0
