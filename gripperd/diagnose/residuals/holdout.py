@@ -7,7 +7,7 @@ References
        2017: leave out whole blocks, for neighbours share noise and memory.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,7 +24,7 @@ SHARE = 0.2
 FEW = 5
 """With fewer sweeps none can be spared: the end of each is left out instead."""
 HELD = 0.03
-"""Within this share of the highest pressure a sweep is a hold. [-]"""
+"""Within this share of the highest command or pressure a sweep is a hold. [-]"""
 TAIL = 0.25
 """Part of a sweep that is left out then. [-]"""
 FEW_JAWS = 3
@@ -33,6 +33,8 @@ PLACES = ("current", "pressure", "contraction", "grip")
 """Inputs that say where a sweep goes."""
 CONDITIONS = (*PLACES, "temperature")
 """All inputs. No two sweeps of a day are equally warm: this may be asked too much."""
+DRIVEN = ("current", "pressure")
+"""Inputs of which one rests in a hold."""
 MARGIN = 0.02
 """Share of a range by which a sweep may go further than all others. [-]"""
 FASTER = 1.5
@@ -82,9 +84,10 @@ def _spared(problem: Problem) -> set[int]:
     """
     courses, shown = problem.courses, _shown(problem)
     wanted = max(1, round(SHARE * len(shown)))
-    top = max(
-        float(np.nanmax(course.level("pressure"), initial=0.0)) for course in courses
-    )
+    top = {
+        name: max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
+        for name in DRIVEN
+    }
     later = [index for index in shown if index > 0]
     moved = [index for index in later if not _still(courses[index], top)]
     inside = (set(within(courses, columns)) for columns in (CONDITIONS, PLACES))
@@ -148,16 +151,18 @@ def _travelled(course: Course) -> bool:
     return bool(np.ptp(course.direction) == 2)
 
 
-def _still(course: Course, top: float) -> bool:
-    """Whether hardly anything moves: a hold is what the drift is known from.
+def _still(course: Course, top: Mapping[str, float]) -> bool:
+    """Whether hardly anything moves: a hold is what drift and leaks are known from.
 
     Most of its samples lie within a small part of what it went through to get there.
+    The pressure of a valve that is shut may sink, at a command that stays.
     """
-    pressure = course.level("pressure")
-    if _travelled(course) or not np.isfinite(pressure).any():
-        return False
-    low, high = np.nanquantile(pressure, (0.2, 0.9))
-    return bool(high - low <= HELD * top)
+    return not _travelled(course) and any(
+        bool(high - low <= HELD * top[name])
+        for name in DRIVEN
+        if np.isfinite(level := course.level(name)).any()
+        for low, high in [np.nanquantile(level, (0.2, 0.9))]
+    )
 
 
 def within(courses: Sequence[Course], columns: Sequence[str] = CONDITIONS) -> list[int]:

@@ -117,6 +117,29 @@ def test_though_none_is_as_warm_as_others_no_hold_is_spared(blank: Problem) -> N
     assert spared in {"b", "c"}
 
 
+@pytest.mark.parametrize("commanded", [True, False])
+def test_no_hold_is_spared_though_its_valve_is_shut_and_leaks(
+    blank: Problem, *, commanded: bool
+) -> None:
+    named = {course.run: course for course in blank.courses}
+    held = _held(named["b2"])
+    sinks = np.linspace(300e3, 200e3, len(held))
+    sinking = held.smooth["pressure"]._replace(value=sinks)
+    read = {n: v for n, v in held.measured.items() if n != "current"}
+    read["pressure"] = sinks
+    if commanded:
+        read["current"] = np.full(len(held), 12e-3)
+    leaking = replace(
+        held,
+        direction=np.zeros(len(held)),
+        smooth={**held.smooth, "pressure": sinking},
+        measured=read,
+    )
+    courses = (named["a"], *3 * (leaking,), *(named[name] for name in "bcd"))
+    (spared,) = split(replace(blank, courses=courses)).runs
+    assert (spared == "held") is not commanded
+
+
 def _faster(problem: Problem, names: set[str], times: float) -> Problem:
     """The same, had some sweeps travelled so many times as fast."""
 
