@@ -65,7 +65,19 @@ def quick_noise(pieces: Iterable[Array], step: float = 0.0) -> Noise:
     growth = v3 / v1
     if growth > (1 - r**3) / (1 - r) * 1.3:
         r = min(r, 0.3)
-    return Noise(float(np.sqrt(v1 / (1 - r))), r)
+    most = _most(np.concatenate(pieces), r)
+    variance = min(v1 / (1 - r), max(v1, most))
+    return Noise(float(np.sqrt(variance)), 1 - v1 / variance)
+
+
+def _most(values: Array, r: float) -> float:
+    """Variance of a noise than which all of it together is no quieter.
+
+    Differences tell little of it when neighbours are much alike. The mean square of n
+    samples has a relative standard error of ``sqrt(2/n (1+r²)/(1-r²))``.
+    """
+    error = np.sqrt(2 / values.size * (1 + r**2) / (1 - r**2))
+    return float(np.mean(values**2) * (1 + 2 * error))
 
 
 def coarse_step(pieces: Iterable[Array]) -> float:

@@ -91,3 +91,11 @@ def test_the_slow_variance_is_what_a_long_mean_sees() -> None:
 
 def test_the_floor_holds_noise_and_drift() -> None:
     assert Noise(3.0, 0.5, drift=4.0).floor == pytest.approx(5.0)
+
+
+def test_a_transmitter_that_averages_is_no_louder_than_all_it_reads() -> None:
+    """Neighbours share half of their noise, the next but one nothing at all."""
+    own = noise(SIZE, 2.5)
+    found = quick_noise([(own[1:] + own[:-1]) / 2])
+    assert found.std == pytest.approx(2.5 / 2**0.5, rel=0.1)
+    assert found.correlation == pytest.approx(0.5, abs=0.1)
