@@ -28,9 +28,15 @@ def test_damping_grows_with_the_rate(muscle: Muscle) -> None:
     assert force(muscle, damping, 4e5) == pytest.approx(force(muscle, damping))
 
 
-def test_the_sublinear_part_grows_with_the_root_of_the_rate(muscle: Muscle) -> None:
-    textile = ViscousFriction(sublinear=10.0)
-    assert force(muscle, textile) == pytest.approx([20.0, 10.0, 0.0, -10.0, -20.0])
+def test_the_sublinear_part_grows_with_the_area_sine_of_the_rate(
+    muscle: Muscle,
+) -> None:
+    # sinh 1, 2, 3 and 4 are 1.17520, 3.62686, 10.01787 and 27.28992.
+    flowing = ViscousFriction(sublinear=30.0, flow=0.1 / 10.01787)
+    rates = flowing.flow * np.array([-27.28992, -1.17520, 0.0, 3.62686, 10.01787])
+    track = track_of(muscle, rate=rates)
+    found = flowing.along(np.zeros(5), track, flowing.rest())
+    assert found == pytest.approx([40.0, 10.0, 0.0, -20.0, -30.0], abs=1e-4)
 
 
 def test_pressure_damping_is_proportional_to_pressure(muscle: Muscle) -> None:
