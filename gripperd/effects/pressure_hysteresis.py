@@ -56,6 +56,8 @@ class PressureHysteresis(InMuscle):
     begun: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
     """Load of the springs where a record begins: 1 as a way there from no pressure
     loads them, -1 the other way. [-]"""
+    kept: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Share that a vented muscle keeps of what deflating it has loaded. [-]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip; contracting is inflating. [N]."""
@@ -69,9 +71,10 @@ class PressureHysteresis(InMuscle):
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
         forces = (self.near, self.middle, self.far)
-        # A transmitter may read less than nothing; a vented muscle loads nothing.
+        # A transmitter may read less than nothing; to be vented is no way up.
         load = self.begun if np.all(track.pressure[:1] > 0) else 0.0
-        begin_at(track.pressure, self.pressure, load, memory)
+        kept = self.kept if np.all(track.cycle[:1] >= 1) else 0.0
+        begin_at(track.pressure, self.pressure, load, memory, kept)
         lost = carried(track.pressure, self.pressure, forces, memory)
         return value - lost * self._lever(track.contraction, track.muscle)
 

@@ -28,7 +28,9 @@ def at_rest() -> Array:
     return begin(3)
 
 
-def begin_at(signal: Array, radius: float, load: float, memory: Array) -> None:
+def begin_at(
+    signal: Array, radius: float, load: float, memory: Array, kept: float = 0.0
+) -> None:
     """Load springs, if they have no past, as a share of what a way from 0 would have.
 
     Parameters
@@ -41,10 +43,13 @@ def begin_at(signal: Array, radius: float, load: float, memory: Array) -> None:
         The share. [-1..1]
     memory
         As :func:`at_rest` gave it, and it is set; or as a call before left it.
+    kept
+        Share that is left at 0 of what a long way down to it loads. [0..1]
     """
     if signal.size and np.isnan(memory).all():
         reaches = radius * SPREAD ** np.arange(-1.0, 2.0)
-        memory[:] = signal[0] - load * np.clip(signal[0], -reaches, reaches)
+        came = np.clip(signal[0], -(1 + kept) * reaches, (1 + kept) * reaches)
+        memory[:] = signal[0] - np.maximum(load * came - kept * reaches, -reaches)
 
 
 def begin_after(signal: Array, radius: float, came: float, memory: Array) -> None:

@@ -54,6 +54,23 @@ def test_a_record_may_begin_as_a_way_from_no_pressure_left_it(muscle: Muscle) ->
     assert force(muscle, begun, pressure=vented).tolist() == [0.0, 0.0]
 
 
+@pytest.mark.parametrize(("inflations", "keeps"), [(0, False), (1, True), (3, True)])
+def test_a_muscle_inflated_before_keeps_what_deflating_it_has_loaded(
+    muscle: Muscle, inflations: int, *, keeps: bool
+) -> None:
+    kept = replace(HYSTERESIS, begun=1.0, kept=1.0)
+    again = np.concatenate([TRIANGLE, TRIANGLE[1:]])
+    both = force(muscle, HYSTERESIS, pressure=again)
+    second = both[TRIANGLE.size - 1 :]
+    assert second[0] == pytest.approx(18.0)
+    for start in (4, 20):
+        track = track_of(
+            muscle, pressure=TRIANGLE[start:], contraction=0.0, cycle=float(inflations)
+        )
+        found = kept.along(np.zeros(track.pressure.size), track, kept.rest())
+        assert (found == pytest.approx(second[start:])) is keeps
+
+
 def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
     begun = replace(HYSTERESIS, begun=1.0)
     track = track_of(muscle, pressure=TRIANGLE, contraction=0.0)
