@@ -4,6 +4,9 @@ References
 ----------
 .. [1] C. A. Coulomb, "Théorie des machines simples", 1785: friction is in proportion
        to the load.
+.. [2] P. R. Dahl, "A solid friction model", Aerospace Corp. TOR-0158(3107-18)-1, 1968:
+       friction that turns round over a way, here that by which the pull winds up the
+       linkage.
 """
 
 from dataclasses import dataclass
@@ -13,7 +16,8 @@ import numpy as np
 
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InGripper
-from gripperd.model.parameter import amplitude
+from gripperd.model.memory import begin, dahl
+from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -25,7 +29,8 @@ class LinkageFriction(InGripper):
     .. math:: N = N_0 (1 - \lambda d) - \kappa d F
 
     with d the direction: some joints carry the grip, some the whole pull of the muscle,
-    most of which goes into the return spring.
+    most of which goes into the return spring. After a reversal the pull has to change
+    until the joints slip the other way [2]_.
     """
 
     name: ClassVar[str] = "linkage_friction"
@@ -43,6 +48,10 @@ class LinkageFriction(InGripper):
 
     pull_loss: float = amplitude(unit=None, scale=0.01, low=0.0, high=0.5)
     """Grip force lost per pull of the muscle. [-]"""
+    turn: float = shape(
+        unit="N", starts=(0.0, 50.0), low=0.0, high=500.0, switches=True
+    )
+    """Change of the pull over which the joints turn round; 0 for at once. [N]"""
 
     @property
     def signal(self) -> Signal:
@@ -53,7 +62,14 @@ class LinkageFriction(InGripper):
         """Grip force behind the joints. [N]."""
         return grip * (1 - self.loss * direction)
 
+    def rest(self) -> Array:
+        """A sign that begins with the first travel; none if they turn at once."""
+        return begin(2) if self.turn > 0 else begin(0)
+
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Grip force of each moment. [N]."""
-        rubbing = self.pull_loss * track.direction * np.fmax(track.force, 0.0)
-        return np.asarray(self.transmitted(value, track.direction) - rubbing)
+        pull, sign = np.fmax(track.force, 0.0), track.direction
+        if self.turn > 0:
+            changed = np.abs(np.diff(pull, prepend=pull[:1])) * np.sign(sign)
+            sign = dahl(np.cumsum(changed), sign, np.ones_like(pull), self.turn, memory)
+        return np.asarray(self.transmitted(value, sign) - self.pull_loss * sign * pull)

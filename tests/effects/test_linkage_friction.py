@@ -19,3 +19,24 @@ def test_a_settled_grip_keeps_the_loss_of_the_last_travel() -> None:
     effect = LinkageFriction(loss=0.1)
     assert effect.transmitted(50.0, Direction.CONTRACTING) == pytest.approx(45.0)
     assert effect.widening(50.0, 400.0) == 0.0
+
+
+def test_after_a_reversal_the_pull_winds_up_the_joints_before_they_turn(
+    muscle: Muscle,
+) -> None:
+    effect = LinkageFriction(pull_loss=0.05, turn=50.0)
+    way = np.array([200.0, 400.0, 600.0, 550.0, 500.0, 300.0])
+    side = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
+    for direction in (side, -side):
+        track = track_of(muscle, force=way, direction=direction)
+        found = effect.along(np.full(6, 100.0), track, effect.rest())
+        # 1 - 2 exp(-n) of the way round, n turns after the reversal.
+        turned = [1.0, 1.0, 1.0, 2 / np.e - 1, 2 / np.e**2 - 1, 2 / np.e**6 - 1]
+        assert found == pytest.approx(100 - 0.05 * way * turned * direction[0])
+
+
+def test_a_load_that_stays_turns_nothing(muscle: Muscle) -> None:
+    effect = LinkageFriction(loss=0.1, turn=50.0)
+    track = track_of(muscle, force=500.0, direction=np.array([1.0, -1.0, -1.0]))
+    found = effect.along(np.full(3, 50.0), track, effect.rest())
+    assert found == pytest.approx(45.0)
