@@ -62,15 +62,15 @@ def levels(
     }
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
-        found["contraction"] = _steady(_unswung(sweep, found["contraction"]))
+        bent = _bending(sweep, "contraction", found["contraction"])
+        found["contraction"] = _steady(_unswung(sweep, bent))
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs
         )
     elif "pressure" in found:
-        found["pressure"] = _bending(
-            sweep, _leaping(sweep, "pressure", found["pressure"])
-        )
+        leapt = _leaping(sweep, "pressure", found["pressure"])
+        found["pressure"] = _bending(sweep, "pressure", leapt)
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -121,14 +121,14 @@ def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
     return leapt if leapt.leapt and likelier else plain
 
 
-def _bending(sweep: Run, plain: Smooth) -> Smooth:
-    """Pressure that may be stiff between corners and supple at them, if likelier.
+def _bending(sweep: Run, name: str, plain: Smooth) -> Smooth:
+    """Column that may be stiff between corners and supple at them, if likelier.
 
     What is cut off a corner of a staircase is missing in the force as well, many times
     its noise, and looks as if one of the two came late.
     """
-    column, time = sweep.columns["pressure"], sweep.columns["time"]
-    bent = smooth(time, column, plain.variance, bends=True)
+    column, time = sweep.columns[name], sweep.columns["time"]
+    bent = smooth(time, column, plain.variance, bends=True, tried=_tried(name))
     return bent if bent.likelihood > plain.likelihood else plain
 
 
