@@ -129,7 +129,10 @@ def _bending(sweep: Run, name: str, plain: Smooth) -> Smooth:
     """
     column, time = sweep.columns[name], sweep.columns["time"]
     bent = smooth(time, column, plain.variance, bends=True, tried=_tried(name))
-    return bent if bent.likelihood > plain.likelihood else plain
+    if bent.likelihood <= plain.likelihood:
+        return plain
+    # Between its corners it is known better than at them, where it may turn round.
+    return bent._replace(spread=max(bent.spread, plain.spread))
 
 
 def _unswung(sweep: Run, plain: Smooth) -> Smooth:

@@ -1,3 +1,5 @@
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -249,14 +251,17 @@ def test_a_step_may_take_many_samples_if_it_goes_one_way() -> None:
         assert (course.direction[501:] == 1.0).all()
 
 
-def test_a_muscle_brought_to_its_length_before_a_hold_does_not_come_back() -> None:
+@pytest.mark.parametrize(("std", "seeds"), [(7e-4, range(20)), (1e-3, (22, 55))])
+def test_a_muscle_brought_to_its_length_before_a_hold_does_not_come_back(
+    std: float, seeds: Sequence[int]
+) -> None:
     time = np.arange(0.0, 30.0, 0.08)
     true = np.minimum(0.025 + 0.0175 * time, 0.0465)
     errors = []
-    for seed in range(20):
+    for seed in seeds:
         (course,) = cut(
-            run(time=time, contraction=true + noise(time.size, 7e-4, seed, 0.3))
+            run(time=time, contraction=true + noise(time.size, std, seed, 0.3))
         )
         assert course.direction.min() == 0.0
         errors.append(course.level("contraction") - true)
-    assert np.sqrt(np.mean(np.square(errors))) < 1.6e-4
+    assert np.sqrt(np.mean(np.square(errors))) < 0.25 * std
