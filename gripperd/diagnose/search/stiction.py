@@ -71,7 +71,10 @@ def _plainest(problem: Problem, rival: Rival) -> Rival:
     for effect in rival.fit.point.effects:
         for name, known in parameters(effect).items():
             if known.switches and getattr(effect, name) != 0:
-                rival = _plainer(problem, rival, effect, name)
+                plain = _plainer(problem, rival, effect, name)
+                # One number may be needed only beside another that is not.
+                if plain is not rival:
+                    return _plainest(problem, plain)
     return rival
 
 
