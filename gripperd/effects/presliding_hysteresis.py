@@ -62,6 +62,8 @@ class PreslidingHysteresis(InMuscle):
     begun: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
     """Load of the springs where a record begins: 1 as a way there from rest length
     loads them, -1 the other way. [-]"""
+    kept: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Share that is left at rest length of what a long way back to it loads. [-]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip, against the travel. [N]."""
@@ -74,7 +76,9 @@ class PreslidingHysteresis(InMuscle):
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take what the springs carry. [N]."""
         if np.isnan(track.came[:1]).all():
-            begin_at(track.contraction, self.contraction, self.begun, memory)
+            # What was never inflated has not come back from anywhere.
+            kept = self.kept if np.all(track.cycle[:1] >= 1) else 0.0
+            begin_at(track.contraction, self.contraction, self.begun, memory, kept)
         else:
             begin_after(track.contraction, self.contraction, track.came[0], memory)
         forces = (self.near, self.middle, self.far)

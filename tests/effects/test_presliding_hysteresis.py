@@ -46,6 +46,22 @@ def test_a_record_may_begin_as_the_way_there_left_it(muscle: Muscle) -> None:
     assert stretched == pytest.approx([ALL, ALL])
 
 
+@pytest.mark.parametrize(("inflations", "keeps"), [(0, False), (1, True), (3, True)])
+def test_a_muscle_used_before_keeps_what_its_way_back_has_loaded(
+    muscle: Muscle, inflations: int, *, keeps: bool
+) -> None:
+    kept = replace(HYSTERESIS, begun=1.0, kept=1.0)
+    again = path(0.0, 0.2, 0.0, 0.2)
+    second = int(np.flatnonzero(again == 0.0)[1])
+    whole = force(muscle, again)
+    assert whole[second] == pytest.approx(ALL)
+    for later in (0, 3, 7):
+        way = again[second + later :]
+        track = track_of(muscle, contraction=way, cycle=float(inflations))
+        found = kept.along(np.zeros(way.size), track, kept.rest())
+        assert (found == pytest.approx(whole[second + later :])) is keeps
+
+
 @pytest.mark.parametrize("came", [-1.0, 0.3, 1.0])
 def test_a_run_without_travel_begins_as_the_rig_came_to_rest(
     muscle: Muscle, came: float
