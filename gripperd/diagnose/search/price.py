@@ -24,6 +24,8 @@ MENDED = 0.05
 """Share below which it mends a form, be it ever so large. [-]"""
 LEAST_OWN = 100.0
 """Fall of chi² that each effect that bends leaves at least of one of its own. [-]"""
+UNBENT = 0.8
+"""Share of a gain that bending leaves, from which form has no part in it. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
 MUCH = 0.4
@@ -101,7 +103,8 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     there = {one.name for one in best.candidates if acts_on(problem, one) & gained}
     bending = [name for name in bendable(best) if name in there & {*larger.names}]
     before, after = (bent(problem, one, bending) for one in (best, larger))
-    least = LEAST_OWN * len(bending) or 2 * LEAST_MORE
+    unbent = before - after > UNBENT * further
+    least = 2 * LEAST_MORE if unbent else LEAST_OWN * len(bending) or 2 * LEAST_MORE
     noise = larger.fit.samples + (2 * larger.fit.samples) ** 0.5
     sure = paid or larger.fit.cost < noise <= before
     kept = MENDED if sure and not _looks_like(best, larger, bending) else OWN

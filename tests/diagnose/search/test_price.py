@@ -195,6 +195,22 @@ def test_what_leaves_noise_where_bending_leaves_more_need_not_keep_half(
 
 
 @pytest.mark.parametrize(
+    ("kept", "share", "worth_it"),
+    [(120.0, 0.7, True), (80.0, 0.7, False), (80.0, 0.9, True), (40.0, 0.9, False)],
+)
+def test_of_a_small_gain_bending_the_first_must_leave_nearly_all(
+    monkeypatch: pytest.MonkeyPatch, kept: float, share: float, *, worth_it: bool
+) -> None:
+    problem, (null, best, larger) = _fits(
+        recording(_stretches_and_rubs(7.0)), THRESHOLD, RUB
+    )
+    left = {1: kept, 2: 0.0}
+    monkeypatch.setattr(price, "bent", lambda _, rival, __: left[len(rival.names)])
+    nearer = replace(best, fit=replace(best.fit, cost=larger.fit.cost + kept / share))
+    assert worth(problem, null, nearer, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(
     ("further", "worth_it"), [(OFFSET, True), (RUB, False)], ids=["valve", "muscle"]
 )
 def test_what_gains_where_nothing_bends_need_not_outdo_a_bend(
@@ -205,6 +221,7 @@ def test_what_gains_where_nothing_bends_need_not_outdo_a_bend(
         recording(_stretches_and_rubs(20.0)), moments(), "current", lambda i: i - 2.5e-4
     )
     monkeypatch.setattr(price, "LEAST_OWN", np.inf)
+    monkeypatch.setattr(price, "UNBENT", np.inf)
     problem, (null, best, larger) = _fits(told, THRESHOLD, further)
     assert larger.evidence - best.evidence > 100.0
     assert worth(problem, null, best, larger, 20.0) is worth_it
