@@ -158,11 +158,15 @@ def _still(course: Course, top: Mapping[str, float]) -> bool:
     The pressure of a valve that is shut may sink, at a command that stays.
     """
     return not _travelled(course) and any(
-        bool(high - low <= HELD * top[name])
-        for name in DRIVEN
-        if np.isfinite(level := course.level(name)).any()
-        for low, high in [np.nanquantile(level, (0.2, 0.9))]
+        _rests(course.level(name), HELD * top[name]) for name in DRIVEN
     )
+
+
+def _rests(level: Array, most: float) -> bool:
+    if not np.isfinite(level).any():
+        return False
+    low, high = np.nanquantile(level, (0.2, 0.9))
+    return bool(high - low <= most)
 
 
 def within(courses: Sequence[Course], columns: Sequence[str] = CONDITIONS) -> list[int]:
