@@ -58,6 +58,8 @@ class Problem:
                 good = usable(course, signal)
                 if signal is Signal.FORCE:
                     good &= course.level("force") > self.slack
+                    # Where a force sets in, a trend may be off by more than the noise.
+                    good &= course.column("force") > self.slack / 2
                 if self.kept:
                     good &= self.kept[index]
                 if good.sum() >= 4:

@@ -71,6 +71,12 @@ def test_a_coarse_converter_is_as_noisy_on_a_slope_as_at_rest() -> None:
     assert 1.0 < found.std / np.std(read - true) < 1.5
 
 
+def test_set_points_far_apart_are_no_steps_of_a_converter() -> None:
+    """Readings of a table, some of which come again within the display of a meter."""
+    table = np.concatenate([[level, level, level + 0.1] for level in range(0, 600, 50)])
+    assert coarse_step([table, table[::-1]]) == pytest.approx(0.1)
+
+
 def test_a_fine_converter_has_no_step_to_speak_of() -> None:
     assert coarse_step([noise(SIZE, 2.5)]) == 0.0
     assert coarse_step([np.full(50, 2.0)]) == 0.0

@@ -235,6 +235,31 @@ def test_a_load_that_swings_after_a_step_does_not_leap() -> None:
     assert course.smooth["contraction"].leapt == ()
 
 
+def test_a_slow_load_that_swings_does_not_leap_either() -> None:
+    # Twenty samples a second; 3 Hz, and a noise by which a swing may pass for leaps.
+    since = np.maximum(np.arange(600) - 200, 0) / 20.0
+    swing = 1 - np.exp(-since / 0.2) * np.cos(2 * np.pi * 3 * since)
+    for seed in range(8):
+        (course,) = cut(
+            run(
+                time=0.05 * np.arange(600.0),
+                contraction=0.03 * swing + noise(600, 5e-4, seed),
+            )
+        )
+        assert course.smooth["contraction"].leapt == ()
+
+
+def test_jaws_that_snap_shut_leave_what_rests_beside_it_as_quiet() -> None:
+    # Between two samples, 25 of them a second.
+    time = 0.04 * np.arange(260.0)
+    true = np.where((time >= 1.0) & (time <= 9.0), 0.06, 0.0)
+    errors = []
+    for seed in range(6):
+        (course,) = cut(run(time=time, contraction=true + noise(260, 5e-4, seed, 0.3)))
+        errors.append(course.level("contraction") - true)
+    assert np.std(errors) < 0.16 * 5e-4
+
+
 def test_a_step_may_take_many_samples_if_it_goes_one_way() -> None:
     # A lag of 0.08 s, fifty samples a second.
     since = np.maximum(np.arange(1500) - 500, 0) / 50.0

@@ -88,6 +88,16 @@ def test_a_slack_muscle_tells_nothing(blank: Problem) -> None:
     )
 
 
+def test_where_a_force_sets_in_no_trend_makes_a_muscle_taut(blank: Problem) -> None:
+    courses = []
+    for course in blank.courses:
+        trend = course.smooth["force"]._replace(value=np.full(len(course), 150.0))
+        courses.append(replace(course, smooth={**course.smooth, "force": trend}))
+    off = replace(blank, courses=tuple(courses), slack=100.0)
+    assert _of(blank, blank.measured, Signal.FORCE).min() < 10.0
+    assert _of(off, off.measured, Signal.FORCE).min() > 50.0
+
+
 def test_the_full_scale_is_the_largest_reading(blank: Problem) -> None:
     readings = [course.column("force") for course in blank.courses]
     top = float(np.max(np.concatenate(readings)))
