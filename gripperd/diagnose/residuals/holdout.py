@@ -33,7 +33,7 @@ PLACES = ("current", "pressure", "contraction", "grip")
 """Inputs that say where a sweep goes."""
 CONDITIONS = (*PLACES, "temperature")
 """All inputs. No two sweeps of a day are equally warm: this may be asked too much."""
-DRIVEN = ("current", "pressure")
+COMMANDED = ("current", "pressure")
 """Inputs of which one rests in a hold."""
 MARGIN = 0.02
 """Share of a range by which a sweep may go further than all others. [-]"""
@@ -86,7 +86,7 @@ def _spared(problem: Problem) -> set[int]:
     wanted = max(1, round(SHARE * len(shown)))
     top = {
         name: max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
-        for name in DRIVEN
+        for name in COMMANDED
     }
     later = [index for index in shown if index > 0]
     moved = [index for index in later if not _still(courses[index], top)]
@@ -158,7 +158,7 @@ def _still(course: Course, top: Mapping[str, float]) -> bool:
     The pressure of a valve that is shut may sink, at a command that stays.
     """
     return not _travelled(course) and any(
-        _rests(course.level(name), HELD * top[name]) for name in DRIVEN
+        _rests(course.level(name), HELD * top[name]) for name in COMMANDED
     )
 
 

@@ -73,7 +73,8 @@ def test_a_coarse_converter_is_as_noisy_on_a_slope_as_at_rest() -> None:
 
 def test_set_points_far_apart_are_no_steps_of_a_converter() -> None:
     """Readings of a table, some of which come again within the display of a meter."""
-    table = np.concatenate([[level, level, level + 0.1] for level in range(0, 600, 50)])
+    table = np.repeat(np.arange(0.0, 600.0, 50.0), 3)
+    table[4::9] += 0.1
     assert coarse_step([table, table[::-1]]) == pytest.approx(0.1)
 
 
