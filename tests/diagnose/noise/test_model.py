@@ -79,7 +79,10 @@ def test_set_points_far_apart_are_no_steps_of_a_converter() -> None:
 
 
 def test_a_fine_converter_has_no_step_to_speak_of() -> None:
-    assert coarse_step([noise(SIZE, 2.5)]) == 0.0
+    rests = noise(SIZE, 2.5)
+    assert coarse_step([rests]) == 0.0
+    rests[:200], rests[200:400] = 0.0, 50.0
+    assert coarse_step([rests]) == 0.0
     assert coarse_step([np.full(50, 2.0)]) == 0.0
     assert coarse_step([]) == 0.0
 
