@@ -61,8 +61,9 @@ def contracting(known: Smooth) -> Array:
 def travel(way: Array, least: float, begun: float = 0.0) -> Array:
     """Sign of travel along a way, turning where it turned; 0 before the first.
 
-    A trend goes too far where jaws meet an object; the way that lasts is not that. What
-    has no noise to begin with (begun 0) goes no further than it went.
+    A trend goes too far where jaws meet an object, and with the noise of the first few
+    readings; the way that lasts is not that. What has no noise to begin with (begun 0)
+    goes no further than it went.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def travel(way: Array, least: float, begun: float = 0.0) -> Array:
         How much is undone when the way back is seen to have begun. [of the way]
     """
     if begun > 0:
-        lasting = median_filter(way, 2 * OVERSHOOT + 1, mode="nearest")
+        lasting = median_filter(way, 2 * OVERSHOOT + 1, mode="reflect")
     else:
         lasting = way
     return compiled(_travel)(way, lasting, least, begun, OVERSHOOT)
@@ -92,14 +93,15 @@ def _travel(
         if sign != 0.0 and gone >= 0:
             extreme, top = way[i], i
         elif abs(gone) > least:
+            ahead = 1.0 if way[i] > extreme else -1.0
             plateau = i - 1
             while abs(way[plateau] - extreme) > begun:
                 plateau -= 1
-            furthest = sign * np.max(sign * lasting[leg:i])
+            furthest = -ahead * np.max(-ahead * lasting[leg:i])
             last = i - 1
             while last > plateau and abs(way[last] - furthest) > begun:
                 last -= 1
-            too_far = sign != 0.0 and abs(extreme - furthest) > begun
+            too_far = abs(extreme - furthest) > begun
             if too_far and last > plateau + brief:
                 extreme, top, plateau = furthest, last - brief, last
             leg = plateau
@@ -110,7 +112,7 @@ def _travel(
             came = 0 if sign != 0.0 else plateau
             while came < top and abs(way[top - came] - extreme) <= begun:
                 came += 1
-            sign = 1.0 if way[i] > extreme else -1.0
+            sign = ahead
             out[plateau - int(min(before, came, plateau - top)) + 1 : i] = sign
             extreme, top = way[i], i
         out[i] = sign

@@ -71,3 +71,11 @@ def test_the_first_way_begins_as_round_as_any() -> None:
     time = np.arange(0.0, 28.0, 0.04)
     way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
     assert np.argmax(travel(way, 1.5e-3, 6e-4)) <= 4
+
+
+@pytest.mark.parametrize("off", [-2e-3, 2e-3])
+def test_the_first_way_begins_where_the_rest_before_it_ends(off: float) -> None:
+    way = np.concatenate([np.zeros(15), np.linspace(0.005, 0.1, 20)])
+    way[:2] = off, off / 2
+    (begun,) = np.flatnonzero(np.diff(travel(way, 2.9e-3, 1.2e-3)))
+    assert abs(begun - 14) <= 1
