@@ -12,9 +12,10 @@ from functools import partial
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
-from scipy.optimize import Bounds, minimize
+from scipy.optimize import Bounds, OptimizeResult, minimize
 from scipy.spatial.distance import cdist
 
+from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.model.track import Array
 
 LENGTHS = (0.03, 30.0)
@@ -59,10 +60,17 @@ class Samples:
     """Correlation of what is no function of the inputs, shape ``(n, n)``."""
 
 
-def likeliest(samples: Samples) -> tuple[Kernel, float]:
+def likeliest(samples: Samples, processes: int = 1) -> tuple[Kernel, float]:
     """Give the kernel of the largest marginal likelihood, and the size of the wander.
 
     Everything is positive, so it is searched in logarithms.
+
+    Parameters
+    ----------
+    samples
+        What it is learnt from.
+    processes
+        How many share the searches.
     """
     size = float(np.sqrt(np.mean(samples.outcome**2))) or 1.0
     count = samples.inputs.shape[1]
@@ -70,8 +78,9 @@ def likeliest(samples: Samples) -> tuple[Kernel, float]:
         np.log([size * end, *[length] * count, size * end])
         for end, length in zip(SIZES, LENGTHS, strict=True)
     )
-    tried = [
-        minimize(
+
+    def searched(start: float) -> OptimizeResult:
+        return minimize(
             partial(_misfit, samples),
             np.log([size, *[start] * count, 0.3 * size]),
             jac=True,
@@ -79,8 +88,8 @@ def likeliest(samples: Samples) -> tuple[Kernel, float]:
             method="L-BFGS-B",
             options={"maxiter": STEPS},
         )
-        for start in STARTS
-    ]
+
+    tried = side_by_side(searched, STARTS, processes)
     best = np.exp(min(tried, key=lambda one: float(one.fun)).x)
     return Kernel(float(best[0]), best[1:-1]), float(best[-1])
 

@@ -151,7 +151,8 @@ def _learnt(
     some = np.unique(np.linspace(0, outcome.size - 1, MOST).round().astype(np.intp))
     noise = train.noises[signal]
     kernel, wander = likeliest(
-        Samples(scaled[some], outcome[some], *_covariances(train, noise, some))
+        Samples(scaled[some], outcome[some], *_covariances(train, noise, some)),
+        train.processes,
     )
     # Nearly unrelated samples taught the wander; here it weighs on their neighbours.
     slow = replace(noise, drift=float(np.hypot(noise.drift, wander)))
