@@ -42,7 +42,9 @@ class Logbook:
         What the surroundings are like.
     """
 
-    __slots__ = ("_ambient", "_chain", "_command", "_cycle", "_filled", "_moved")
+    __slots__ = (
+        "_ambient", "_chain", "_command", "_cycle", "_filled", "_moved", "_supply",
+    )  # fmt: skip
 
     def __init__(self, chain: Chain, settings: PlantSettings) -> None:
         self._chain = chain
@@ -51,6 +53,7 @@ class Logbook:
             "ambient": np.array([settings.ambient_pressure]),
             "repeat": np.array([nan]),
         }
+        self._supply = settings.supply_pressure
         self._command = nan
         self._moved = 0.0
         self._cycle = 0.0
@@ -63,6 +66,7 @@ class Logbook:
         regulator = self._chain.regulator
         self._count(moment.pressure / regulator.pressure_high)
         samples = {name: np.array([x]) for name, x in moment._asdict().items()}
+        supply = samples.pop("supply")
         return Track(
             muscle=self._chain.muscle,
             span=(regulator.pressure_low, regulator.pressure_high),
@@ -70,6 +74,7 @@ class Logbook:
             came=np.array([nan]),
             waiting=np.array([moment.time - self._moved]),
             cycle=np.array([self._cycle]),
+            supply_drop=np.maximum(self._supply - supply, 0.0),
             **samples,
             **self._ambient,
         )

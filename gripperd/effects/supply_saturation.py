@@ -12,7 +12,6 @@ from typing import ClassVar
 import numpy as np
 
 from gripperd.model.kinds import InValve
-from gripperd.model.memory import begin
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
@@ -46,22 +45,16 @@ class SupplySaturation(InValve):
     softness: float = shape(unit=None, starts=(0.0, 0.03), low=0.0, high=0.2)
     """How round the corner is, relative to the span. [-]"""
 
-    def rest(self) -> Array:
-        """No supply seen yet."""
-        return begin()
-
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Pressure under the ceiling with the supply at its highest. [Pa]."""
         return pressure - self.share * self._excess(pressure, span)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
-        """Pressure that a supply of its own history allows. [Pa]."""
-        highest = np.fmax.accumulate(np.append(memory, track.supply))[1:]
-        memory[0] = highest[-1]
-        missing = np.nan_to_num(highest - track.supply)
+        """Pressure that the supply of the moment allows. [Pa]."""
         low, high = track.span
-        sunk = self.sag * missing * (value - low) / (high - low)
-        return value - self.share * self._excess(value + missing, track.span) - sunk
+        excess = self._excess(value + track.supply_drop, track.span)
+        sunk = self.sag * track.supply_drop * (value - low) / (high - low)
+        return value - self.share * excess - sunk
 
     def _excess(self, pressure: Real, span: tuple[float, float]) -> Real:
         low, high = span

@@ -46,8 +46,8 @@ class Track:
     """Force of each jaw. [N]"""
     temperature: Array
     """Of the muscle. [K]"""
-    supply: Array
-    """Gauge pressure before the regulator. [Pa]"""
+    supply_drop: Array
+    """What the supply has lost of its highest; 0 where that is not measured. [Pa]"""
     ambient: Array
     """Absolute pressure of the air around. [Pa]"""
     cycle: Array

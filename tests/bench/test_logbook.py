@@ -19,8 +19,10 @@ MOMENT = Moment(
 def test_a_moment_is_a_track_of_one_sample(chain: Chain) -> None:
     settings = PlantSettings(temperature=300.0, ambient_pressure=98e3)
     track = Logbook(chain, settings).track(MOMENT)
-    for name, value in MOMENT._asdict().items():
-        assert getattr(track, name).tolist() == [value]
+    for name in set(Moment._fields) - {"supply"}:
+        assert getattr(track, name).tolist() == [getattr(MOMENT, name)]
+    # The regulator is fed with 700 kPa, and 650 are left.
+    assert track.supply_drop.tolist() == [50e3]
     assert track.temperature.tolist() == [300.0]
     assert track.ambient.tolist() == [98e3]
     assert track.span == (0.0, 500e3)

@@ -30,7 +30,7 @@ def course(muscle: Muscle) -> Track:
         waiting=time % 5.0,
         force=300.0 + 200.0 * np.sin(time),
         grip=30.0 + 20.0 * np.sin(time),
-        supply=600e3 - 40e3 * np.sin(0.3 * time),
+        supply_drop=40e3 - 40e3 * np.sin(0.3 * time),
         ambient=101e3 - 100.0 * time,
     )
 

@@ -40,20 +40,13 @@ def test_a_reading_that_is_missing_stays_so_in_silence() -> None:
 
 def test_the_ceiling_sinks_with_a_supply_that_is_measured(muscle: Muscle) -> None:
     effect = SupplySaturation(share=1.0, limit=0.9)
-    supply = np.array([600e3, 600e3, 590e3, 500e3])
-    track = track_of(muscle, supply=supply)
+    track = track_of(muscle, supply_drop=np.array([0.0, 0.0, 10e3, 100e3]))
     found = effect.along(np.full(4, 480e3), track, effect.rest())
     assert found == pytest.approx([450e3, 450e3, 440e3, 350e3])
 
 
 def test_a_sag_costs_most_at_the_top_of_the_line(muscle: Muscle) -> None:
     effect = SupplySaturation(share=0.0, sag=0.1)
-    track = track_of(muscle, supply=np.array([600e3, 500e3, 500e3]))
+    track = track_of(muscle, supply_drop=np.array([0.0, 100e3, 100e3]))
     found = effect.along(np.array([500e3, 500e3, 250e3]), track, effect.rest())
     assert found == pytest.approx([500e3, 490e3, 245e3])
-
-
-def test_an_unmeasured_supply_is_taken_as_constant(muscle: Muscle) -> None:
-    effect = SupplySaturation(share=0.0, sag=0.5)
-    track = track_of(muscle, supply=np.full(5, np.nan))
-    assert effect.along(ASKED, track, effect.rest()) == pytest.approx(ASKED)

@@ -21,7 +21,7 @@ STILL = {
     "force": 0.0,
     "grip": np.nan,
     "temperature": np.nan,
-    "supply": np.nan,
+    "supply_drop": 0.0,
     "ambient": np.nan,
     "cycle": 0.0,
     "repeat": np.nan,

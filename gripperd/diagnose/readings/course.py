@@ -31,6 +31,8 @@ class Course:
     """Columns without noise; ``length`` is the contraction with its corners sharp."""
     cycle: Array
     repeat: Array
+    supply_drop: Array
+    """What the supply has lost of its highest; 0 where that is not measured. [Pa]"""
     direction: Array
     """Direction of travel, 0 before there was any. [-]"""
     still: Array
@@ -104,6 +106,7 @@ def joined(courses: Sequence[Course]) -> Course:
         },
         cycle=np.concatenate([course.cycle for course in courses]),
         repeat=np.concatenate([course.repeat for course in courses]),
+        supply_drop=np.concatenate([course.supply_drop for course in courses]),
         direction=np.concatenate([course.direction for course in courses]),
         still=np.concatenate([course.still for course in courses]),
         waiting=np.concatenate([course.waiting for course in courses]),

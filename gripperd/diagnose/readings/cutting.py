@@ -14,6 +14,7 @@ from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
+from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.errors import InputError
 from gripperd.model.compiled import compiled
@@ -85,9 +86,9 @@ def courses(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
     ]
-    waits = waiting(found)
+    told = zip(found, waiting(found), supply_drops(found), strict=True)
     return tuple(
-        replace(course, waiting=wait) for course, wait in zip(found, waits, strict=True)
+        replace(course, waiting=wait, supply_drop=drop) for course, wait, drop in told
     ), noises
 
 
@@ -105,7 +106,7 @@ def _course(
     known, still = smoothed.get("contraction"), _stillness(sweep)
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
-        sweep.columns, smoothed, cycle, np.full(time.size, repeat),
+        sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,
         np.zeros_like(time) if known is None else contracting(known),
         still, still, on_stairs, start=start,
     )  # fmt: skip

@@ -20,7 +20,10 @@ from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.travel import contracting, leaning, reversal
 from gripperd.model.track import Array
 
-SMOOTHED = ("pressure", "contraction", "force", "opening", "grip", "temperature")
+SMOOTHED = (
+    "pressure", "contraction", "force", "opening", "grip", "temperature", "supply",
+    "ambient",
+)  # fmt: skip
 QUICK = 0.04
 """Time in which a regulator may have followed a step: 10 to 60 ms at the outlet. [s]"""
 SUPPLE = 1e4

@@ -135,7 +135,7 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
     return Course(
         sweep.title, sweep.kind, sweep.time + end, np.diff(sweep.time, prepend=0.0),
         columns, smooth, problem.courses[-1].cycle[-1] + 1 + 0 * sweep.time, nothing,
-        contracting(smooth["contraction"]), nothing, nothing,
+        0 * sweep.time, contracting(smooth["contraction"]), nothing, nothing,
         start=known.start,
     )  # fmt: skip
 
