@@ -12,6 +12,7 @@ from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.recording import Kind
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -64,7 +65,7 @@ def traces(diagnosis: Diagnosis, signal: Signal) -> tuple[Trace, ...]:
         last = State.EXPLAINED if established else State.NEAREST
         points[last] = diagnosis.explained
     expected = {
-        state: whole.expected(whole.explanation(point))
+        state: whole.expected(whole.explanation(with_own_sign(diagnosis.split, point)))
         for state, point in points.items()
     }
     return tuple(

@@ -31,6 +31,7 @@ from gripperd.diagnose.verdict.key import (
     rounded,
 )
 from gripperd.diagnose.verdict.named import Estimate, Named
+from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.errors import Refused
 from gripperd.model import StaticMuscle
 from gripperd.model.effect import Effect, acts_in_muscle
@@ -130,9 +131,12 @@ def _kept(diagnosis: Diagnosis) -> Point:
 def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:
     """Gap of a point on data that took no part in fitting it."""
     split, signal = diagnosis.split, diagnosis.main
-    points = (diagnosis.nominal, diagnosis.recalibrated, point)
+    start, base, kept = (
+        with_own_sign(split, one)
+        for one in (diagnosis.nominal, diagnosis.recalibrated, point)
+    )
     draws = np.random.default_rng(diagnosis.seed)
-    judged = gaps(apart(split)[0], points, split.train.noises, draws)
+    judged = gaps(apart(split)[0], (start, base, kept), split.train.noises, draws)
     if signal is None or signal not in judged:
         message = "nothing to apply: no data were left out to confirm it on"
         raise Refused(message, code="not-confirmed")

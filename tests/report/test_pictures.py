@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 
 from gripperd.demo.rig import Hidden
-from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.model.effect import Signal
-from gripperd.report.trace import Trace, elided, traces
+from gripperd.model.track import Array
+from gripperd.report.trace import State, Trace, elided, traces
 from gripperd.report.where import over_time, spaced
 from tests.demonstration import example
+from tests.diagnose.small import MODEL, Moment, recording
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +60,23 @@ def test_no_two_marks_are_nearer_than_they_may_be() -> None:
 )
 def test_a_long_name_keeps_the_end_by_which_it_differs(name: str, said: str) -> None:
     assert elided(name, 13) == said
+
+
+def test_a_picture_shows_the_gap_that_the_page_tells() -> None:
+    def rubbing(moment: Moment) -> Array:
+        # What is held rests on a side of its own, as it happened to be set up.
+        side = np.sin(moment.time[0]) if not np.ptp(moment.contraction) else 1.0
+        return -60.0 * side * moment.direction * (moment.pressure > 1e3)
+
+    library = {CoulombFriction.name: CoulombFriction}
+    told = diagnose(recording(rubbing), MODEL, {}, library)
+    (force,) = (gap for signal, gap in told.gaps.items() if signal is Signal.FORCE)
+    shown = traces(told, Signal.FORCE)
+    assert force.after < 0.3 * force.before
+    for state, gap in (
+        (State.NOMINAL, force.before),
+        (State.RECALIBRATED, force.recalibrated),
+        (State.EXPLAINED, force.after),
+    ):
+        left = np.concatenate([one.residual(state)[one.held_out] for one in shown])
+        assert float(np.sqrt(np.mean(left**2))) == pytest.approx(gap)
