@@ -103,7 +103,7 @@ def _course(
 ) -> Course:
     time = sweep.columns["time"]
     smoothed = levels(sweep, noises, on_stairs=on_stairs)
-    known, still = smoothed.get("contraction"), _stillness(sweep)
+    known, still = smoothed.get("contraction"), stillness(sweep)
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,
@@ -135,8 +135,8 @@ def _pieces(run: Run) -> Iterator[Run]:
         yield Run(name, columns, run.kind)
 
 
-def _stillness(sweep: Run) -> Array:
-    """Time since the command last moved. [s]."""
+def stillness(sweep: Run) -> Array:
+    """Time since the command last moved, NaN where there is none. [s]."""
     time = sweep.columns["time"]
     if not sweep.has("current"):
         return np.full_like(time, np.nan)

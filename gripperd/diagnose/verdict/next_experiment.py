@@ -16,7 +16,8 @@ from gripperd.diagnose.fit.polish import slopes
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.course import Course
-from gripperd.diagnose.readings.recording import Kind
+from gripperd.diagnose.readings.cutting import stillness
+from gripperd.diagnose.readings.recording import Kind, Run
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.verdict.key import plain
@@ -131,11 +132,12 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
         for name, column in columns.items()
         if name not in ("current", "supply", "ambient")
     }
+    still = stillness(Run(sweep.title, {**columns, "time": sweep.time}, sweep.kind))
     nothing = np.full_like(sweep.time, np.nan)
     return Course(
         sweep.title, sweep.kind, sweep.time + end, np.diff(sweep.time, prepend=0.0),
         columns, smooth, problem.courses[-1].cycle[-1] + 1 + 0 * sweep.time, nothing,
-        0 * sweep.time, contracting(smooth["contraction"]), nothing, nothing,
+        0 * sweep.time, contracting(smooth["contraction"]), still, still,
         start=known.start,
     )  # fmt: skip
 

@@ -16,7 +16,9 @@ from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.leak import Leak
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.effects.valve_gain import ValveGain
 from gripperd.model.effect import Effect
 from gripperd.model.track import Array
 from tests.diagnose.small import (
@@ -24,6 +26,8 @@ from tests.diagnose.small import (
     STEP,
     Hidden,
     Moment,
+    altered,
+    moments,
     pinned,
     recording,
     rubbing,
@@ -154,3 +158,13 @@ def test_a_muscle_that_may_be_slack_is_planned_for_all_the_same() -> None:
     # A large muscle: below 150 N its force is not told from none.
     slack = replace(problem, slack=150.0)
     assert proposal(slack, *rivals).kind is proposal(problem, *rivals).kind
+
+
+def test_a_leak_is_told_from_a_gain_by_a_hold() -> None:
+    low = altered(recording(), moments(), "pressure", lambda read: 0.96 * read)
+    problem = pinned(problem_of(low, MODEL, {}), "muscle.diameter")
+    leak, gain = Leak(rate=2e-3, refill=10.0), ValveGain(error=-0.04)
+    found = proposal(problem, _rival(problem, leak), _rival(problem, gain))
+    # Nothing but a command that stands still for long lets a leak be seen.
+    assert np.ptp(_column(found, "pressure_kPa")) == 0
+    assert _column(found, "t_s")[-1] >= 30
