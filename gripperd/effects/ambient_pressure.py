@@ -8,6 +8,8 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InSensor
 from gripperd.model.parameter import amplitude
@@ -24,7 +26,7 @@ class AmbientPressure(InSensor):
     .. math:: p_r = p + a (P_a - 101\,325\,\mathrm{Pa}) + z
 
     An absolute transducer less a constant has a = 1, and z is the standard atmosphere
-    less that constant.
+    less that constant. Where the pressure of the air is not known it is taken as that.
     """
 
     name: ClassVar[str] = "ambient_pressure"
@@ -59,4 +61,5 @@ class AmbientPressure(InSensor):
         return reading - self._error(track)
 
     def _error(self, track: Track) -> Array:
-        return self.share * (track.ambient - STANDARD_ATMOSPHERE) + self.zero
+        above = np.nan_to_num(track.ambient - STANDARD_ATMOSPHERE)
+        return self.share * above + self.zero

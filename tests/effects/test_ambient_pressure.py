@@ -24,3 +24,12 @@ def test_in_the_standard_atmosphere_only_the_zero_is_left(muscle: Muscle) -> Non
     effect = AmbientPressure(share=1.0, zero=-500.0)
     track = track_of(muscle, ambient=np.array([101_325.0]))
     assert effect.along(np.zeros(1), track, effect.rest()) == -500.0
+
+
+def test_where_the_air_is_not_measured_it_is_the_standard_atmosphere(
+    muscle: Muscle,
+) -> None:
+    effect = AmbientPressure(share=1.0, zero=300.0)
+    track = track_of(muscle, ambient=np.array([np.nan, 100_325.0]))
+    reading = effect.along(np.full(2, 200e3), track, effect.rest())
+    np.testing.assert_allclose(reading, [200_300.0, 199_300.0])
