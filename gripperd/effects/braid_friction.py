@@ -43,7 +43,7 @@ class BraidFriction(InMuscle):
     )
     confused_with: ClassVar[tuple[str, ...]] = ("pressure_friction", "coulomb_friction")
     remedy: ClassVar[str] = "add the friction between bladder and braid to the model"
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
     form: Form = Form.REBRACED
     share: float = amplitude(unit=None, scale=1.0, low=0.0, high=10.0, default=1.0)
     """Of the friction of eq. (6), k. [-]"""

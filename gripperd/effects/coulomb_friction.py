@@ -45,7 +45,7 @@ class CoulombFriction(InMuscle):
         "look for what rubs on the muscle and its rod, and always approach a grip from"
         " the same side"
     )
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
 
     magnitude: float = amplitude(unit="N", scale=20.0, low=0.0, high=300.0)
     """Of the force. [N]"""

@@ -41,7 +41,7 @@ class LinkageBacklash(InGripper):
     )
     confused_with: ClassVar[tuple[str, ...]] = ("channel_delay", "linkage_friction")
     remedy: ClassVar[str] = "take up the play in the joints, or preload them"
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
 
     width: float = amplitude(unit="mm", scale=0.3e-3, low=0.0, high=20e-3)
     """Opening lost at a reversal. [m]"""

@@ -41,7 +41,7 @@ class LinkageFriction(InGripper):
     )
     confused_with: ClassVar[tuple[str, ...]] = ("linkage_backlash", "coulomb_friction")
     remedy: ClassVar[str] = "grease or replace the joints of the jaws"
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
 
     loss: float = amplitude(unit=None, scale=0.05, low=0.0, high=0.9)
     """Share of the grip that is lost closing and won opening. [-]"""

@@ -42,7 +42,7 @@ class PreslidingHysteresis(InMuscle):
     remedy: ClassVar[str] = (
         "always approach a grip from the same side, from well beyond the last reversal"
     )
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
 
     near: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
     """Carried by the spring that slips first. [N]"""

@@ -40,7 +40,7 @@ class PressureFriction(InMuscle):
         "coulomb_friction", "braid_friction", "presliding_hysteresis",
     )  # fmt: skip
     remedy: ClassVar[str] = "always approach a grip from the same side"
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
     basis: ClassVar[str] = "braid_friction"
 
     magnitude: float = amplitude(unit="N", scale=20.0, low=0.0, high=300.0)

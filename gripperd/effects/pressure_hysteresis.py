@@ -41,6 +41,7 @@ class PressureHysteresis(InMuscle):
         "valve_dead_band", "channel_delay", "creep", "series_compliance",
     )  # fmt: skip
     remedy: ClassVar[str] = "always reach a pressure from the same side"
+    turns: ClassVar[str] = "pressure"
 
     near: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
     """Carried at rest length by the spring that slips first. [N]"""

@@ -49,6 +49,7 @@ class ValveDeadBand(InValve):
     remedy: ClassVar[str] = (
         "approach each current from the same side, or use a finer regulator"
     )
+    turns: ClassVar[str] = "current"
 
     width: float = amplitude(unit="kPa", scale=15e3, low=0.0, high=100e3)
     """Reversal of the command that is not followed. [Pa]"""

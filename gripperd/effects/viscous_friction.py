@@ -45,7 +45,7 @@ class ViscousFriction(InMuscle):
         "coulomb_friction", "channel_delay", "presliding_hysteresis",
     )  # fmt: skip
     remedy: ClassVar[str] = "move more slowly where the force matters"
-    travels: ClassVar[bool] = True
+    turns: ClassVar[str] = "contraction"
     timed: ClassVar[bool] = True
 
     damping: float = amplitude(unit="N_s", scale=100.0, low=0.0, high=5000.0)

@@ -81,8 +81,9 @@ class Effect(Protocol):
     """Names of effects that look alike in many recordings."""
     remedy: ClassVar[str]
     """What a person can do about it, one sentence."""
-    travels: ClassVar[bool]
-    """Whether it has no sign without travel."""
+    turns: ClassVar[str]
+    """What must have gone both ways for it to be told from what has no memory; empty
+    where nothing must."""
     timed: ClassVar[bool]
     """Whether time or order counts, beside what it remembers."""
     one_sided: ClassVar[bool]

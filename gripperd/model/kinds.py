@@ -16,7 +16,7 @@ class Memoryless:
     """Nothing of the past matters, nor does the way or the clock."""
 
     __slots__ = ()
-    travels: ClassVar[bool] = False
+    turns: ClassVar[str] = ""
     timed: ClassVar[bool] = False
     one_sided: ClassVar[bool] = False
     basis: ClassVar[str] = ""

@@ -8,6 +8,7 @@ from types import MappingProxyType
 import numpy as np
 
 from gripperd.diagnose.readings.course import is_table
+from gripperd.diagnose.readings.travel import travel
 from gripperd.diagnose.residuals.constants import PARTS
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Effect, Stage
@@ -18,6 +19,11 @@ SAME: Mapping[str, str] = MappingProxyType({
     "valve.pressure_low": "valve_offset", "valve.pressure_high": "valve_gain",
 })  # fmt: skip
 """Constants that are wrong in just the way in which an effect shows."""
+NAMES: Mapping[str, str] = MappingProxyType({"contraction": "length"})
+"""What people call a quantity that has another name here."""
+TURNED = 0.05
+"""Way back, as a share of the range, from which a pressure or a current has turned: ten
+times the noise of usual sensors. [-]"""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -94,21 +100,29 @@ def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> st
     basis = kind.basis
     if basis and basis not in {effect.name for effect in problem.model.effects}:
         return f"{basis} is not in the model"
-    if kind.travels and not _travelled(problem):
-        return "the length never went both ways"
+    if kind.turns and not _turned(problem, kind.turns):
+        return f"the {NAMES.get(kind.turns, kind.turns)} never went both ways"
     if is_table(problem.courses) and (kind.timed or plain.rest().size):
         return "the recording is a table of settled points, without time"
     return ""
 
 
-def _travelled(problem: Problem) -> bool:
-    return any(np.ptp(course.direction) == 2 for course in problem.courses)
+def _turned(problem: Problem, quantity: str) -> bool:
+    """Whether something went both ways, be it in one sweep or in two."""
+    if quantity == "contraction":
+        ways = [course.direction for course in problem.courses]
+    else:
+        levels = [course.level(quantity) for course in problem.courses]
+        known = [level[np.isfinite(level)] for level in levels]
+        least = TURNED * float(np.ptp(np.concatenate(known)))
+        ways = [travel(level, least) for level in known if level.size]
+    return {-1.0, 1.0} <= set(np.concatenate(ways))
 
 
 def _wrong_constants(
     library: Mapping[str, type[Effect]], problem: Problem
 ) -> Iterator[Candidate]:
-    travelled = _travelled(problem)
+    travelled = _turned(problem, "contraction")
     for index, constant in enumerate(problem.constants):
         is_part = constant.path.partition(".")[0] in PARTS
         unseen = constant.path == "muscle.friction_coefficient" and not travelled

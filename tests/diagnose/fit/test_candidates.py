@@ -12,6 +12,7 @@ from gripperd.diagnose.fit.candidates import (
     side,
 )
 from gripperd.diagnose.fit.design import limits
+from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
@@ -221,3 +222,29 @@ def test_an_offset_or_a_factor_is_plain(name: str, *, plain: bool) -> None:
 
 def test_a_wrong_constant_is_no_plain_effect() -> None:
     assert not is_plain(Candidate("parameter:muscle.diameter", None, 0))
+
+
+def _halved(*back: str) -> Problem:
+    """The way there of each sweep, and of some the way back."""
+    plain = recording()
+    runs = []
+    for run in plain.runs:
+        half = len(run) // 2
+        rows = slice(half, None) if run.name in back else slice(half)
+        columns = {name: column[rows] for name, column in run.columns.items()}
+        runs.append(Run(run.name, columns))
+    return problem_of(replace(plain, runs=tuple(runs)), MODEL, {})
+
+
+def test_no_loop_is_told_of_what_never_turned() -> None:
+    _, unseen = candidates(EFFECTS, _halved(), MEASURED)
+    assert unseen["pressure_hysteresis"] == "the pressure never went both ways"
+    assert unseen["valve_dead_band"] == "the current never went both ways"
+    assert unseen["coulomb_friction"] == "the length never went both ways"
+
+
+def test_a_way_back_may_have_a_sweep_of_its_own() -> None:
+    listed, _ = candidates(EFFECTS, _halved("b2", "e"), MEASURED)
+    assert {"pressure_hysteresis", "valve_dead_band", "coulomb_friction"} <= _names(
+        listed
+    )
