@@ -158,7 +158,7 @@ def tabled(hidden: Hidden, size: int = 40) -> Recording:
     for place, held in enumerate((0.0, 0.05, 0.1, 0.15, 0.2, 0.24)):
         level = np.ones_like(points)
         moment = Moment(
-            100 * place + points, 500e3 * points / points[-1], held * level, level
+            size * place + points, 500e3 * points / points[-1], held * level, level
         )
         random = np.random.default_rng([SEED, place])
         columns = {

@@ -11,9 +11,6 @@ from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.recording import Kind
 from gripperd.model.track import Array
 
-LEAP = 0.02
-"""Share of the range between neighbours from which points are no sweep. [-]"""
-
 
 @dataclass(frozen=True)
 class Course:
@@ -41,6 +38,8 @@ class Course:
     """The same, 0 where a regulator is taken to keep the pressure. [s]"""
     on_stairs: bool = False
     """Whether the pressure of its recording goes in stairs, which no trend follows."""
+    listed: bool = False
+    """Whether its recording lists settled points, with a counter for a clock."""
     slices: tuple[slice, ...] = (slice(None),)
     """Samples of each sweep."""
     start: float = 0.0
@@ -111,6 +110,7 @@ def joined(courses: Sequence[Course]) -> Course:
         still=np.concatenate([course.still for course in courses]),
         waiting=np.concatenate([course.waiting for course in courses]),
         on_stairs=any(course.on_stairs for course in courses),
+        listed=is_table(courses),
         slices=tuple(
             slice(end - len(course), end)
             for course, end in zip(courses, ends, strict=True)
@@ -121,9 +121,4 @@ def joined(courses: Sequence[Course]) -> Course:
 
 def is_table(sweeps: Sequence[Course]) -> bool:
     """Tell whether a recording lists settled points, with a counter for a clock."""
-    return all(
-        np.all(course.step[1:] == 1.0)
-        and np.median(np.abs(np.diff(course.level("pressure"))))
-        > LEAP * np.ptp(course.level("pressure"))
-        for course in sweeps
-    )
+    return all(course.listed for course in sweeps)

@@ -15,6 +15,7 @@ from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.diagnose.readings.supply import supply_drops
+from gripperd.diagnose.readings.table import lists_points
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.errors import InputError
 from gripperd.model.compiled import compiled
@@ -86,9 +87,11 @@ def courses(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
     ]
+    listed = lists_points(found)
     told = zip(found, waiting(found), supply_drops(found), strict=True)
     return tuple(
-        replace(course, waiting=wait, supply_drop=drop) for course, wait, drop in told
+        replace(course, waiting=wait, supply_drop=drop, listed=listed)
+        for course, wait, drop in told
     ), noises
 
 
