@@ -67,7 +67,9 @@ def problem_of(
     for _ in range(2):
         train = split(problem).train
         null = polished(train, Point(np.zeros(len(listed)))).point
-        problem = replace(problem, noises=loud | noises_of(train, null))
+        problem = replace(
+            problem, noises=loud | noises_of(train, null, recording.noise)
+        )
     return problem
 
 

@@ -169,3 +169,13 @@ def test_what_a_column_is_off_by_tells_why(factor: float, cause: str) -> None:
     off = altered(recording(), ALL, "force", lambda force: factor * force)
     with pytest.raises(InputError, match=cause):
         problem_of(off, MODEL, {})
+
+
+def test_no_reading_is_quieter_than_whoever_measured_it_says() -> None:
+    plain = recording()
+    stated = replace(plain, noise={"force": 30.0, "pressure": 10.0})
+    known, told = (problem_of(one, MODEL, {}).noises for one in (plain, stated))
+    assert told[Signal.FORCE].std == 30.0
+    quiet = known[Signal.PRESSURE].std
+    assert told[Signal.PRESSURE].std == pytest.approx(quiet)
+    assert quiet > 500.0

@@ -77,7 +77,10 @@ def courses(
     ])  # fmt: skip
     if stepped:
         noises["pressure"] = stepped
-    for name, std in recording.noise.items():
+    stated = dict(recording.noise)
+    if "length" in stated:
+        stated.setdefault("contraction", stated["length"] / rest_length)
+    for name, std in stated.items():
         if name in noises and std > noises[name].std:
             noises[name] = Noise(std, noises[name].correlation)
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)

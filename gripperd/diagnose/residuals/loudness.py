@@ -1,7 +1,8 @@
 """How loud each signal is: white noise, its memory, and drift."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -28,7 +29,11 @@ TURNS = 3.0
 """Time in which a grip that rises turns to one that falls. [s]"""
 
 
-def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
+def noises_of(
+    problem: Problem,
+    point: Point,
+    stated: Mapping[str, float] = MappingProxyType({}),
+) -> dict[Signal, Noise]:
     """Tell the noise of every signal that is explained.
 
     Parameters
@@ -37,6 +42,8 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
         Without what is held out.
     point
         The best constants, with nothing added. What repeats is no noise.
+    stated
+        One sigma by column, as whoever measured knows it: no reading has less. [SI]
 
     Returns
     -------
@@ -54,6 +61,7 @@ def noises_of(problem: Problem, point: Point) -> dict[Signal, Noise]:
             # Neighbours are no repeats of each other; instruments of a test stand.
             noise = Noise(POINTS * problem.full_scale[signal], 0.0)
         noise = audible(noise, signal, problem.courses)
+        noise = replace(noise, std=max(noise.std, stated.get(signal.value, 0.0)))
         asked = problem, residuals, indices
         quiet = [
             *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)

@@ -118,3 +118,10 @@ def test_runs_too_short_to_be_sweeps_are_refused() -> None:
     )
     with pytest.raises(InputError, match="no run has 4 samples without a pause"):
         courses(Recording("torn", "0" * 64, pieces), REST_LENGTH)
+
+
+def test_the_noise_of_a_length_is_that_of_its_contraction() -> None:
+    length = REST_LENGTH * (1 - 0.2 * triangle(low=0.0, high=1.0))
+    sweep = run(pressure=triangle(), length=length + noise(400, 1e-5))
+    stated = Recording("r", "0" * 64, (sweep,), noise={"length": 1e-3})
+    assert courses(stated, REST_LENGTH)[1]["contraction"].std == 1e-3 / REST_LENGTH
