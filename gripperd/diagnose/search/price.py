@@ -17,9 +17,11 @@ from gripperd.model.effect import Signal
 PHANTOM = 0.06
 """An addition that closes less of the first gap than this repairs its shape, and is
 not an effect of its own: no library has the formula of nature. [-]"""
-OWN = 0.5
+OWN = 1 / 3
 """Share of a gain that no bending of the first effects takes, from which it is that of
 an effect of its own, be it ever so small. [-]"""
+OWN_DOUBLE = 0.5
+"""The same of what is known to look like one of them. [-]"""
 MENDED = 0.05
 """Share below which it mends a form, be it ever so large. [-]"""
 LEAST_OWN = 100.0
@@ -107,7 +109,8 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     least = 2 * LEAST_MORE if unbent else LEAST_OWN * len(bending) or 2 * LEAST_MORE
     noise = larger.fit.samples + (2 * larger.fit.samples) ** 0.5
     sure = paid or larger.fit.cost < noise <= before
-    kept = MENDED if sure and not _looks_like(best, larger, bending) else OWN
+    kept = MENDED if sure else OWN
+    kept = OWN_DOUBLE if _looks_like(best, larger, bending) else kept
     if before - after <= max(least, kept * further):
         return False
     return paid or after < noise

@@ -170,15 +170,16 @@ def test_of_what_a_known_double_closes_bending_the_first_may_not_take_most(
 
 
 @pytest.mark.parametrize(
-    ("left", "worth_it"), [(0.5, True), (0.01, False), (-0.5, False)]
+    ("left", "share", "worth_it"),
+    [(0.5, 0.3, True), (0.01, 0.3, False), (-0.5, 0.3, False), (-0.5, 0.4, True)],
 )
-def test_what_leaves_noise_where_bending_leaves_more_need_not_keep_half(
-    monkeypatch: pytest.MonkeyPatch, left: float, *, worth_it: bool
+def test_what_leaves_noise_where_bending_leaves_more_need_not_keep_a_third(
+    monkeypatch: pytest.MonkeyPatch, left: float, share: float, *, worth_it: bool
 ) -> None:
     """An addition that closes little takes all there is above the noise.
 
-    Of its gain bending leaves two fifths. That is believed if bending the first alone
-    leaves more than noise, by half the samples; not if it leaves noise too.
+    Where bending leaves three tenths of its gain, that is believed if bending the first
+    alone leaves more than noise, by half the samples; not if it leaves noise too.
     """
     problem, (null, best, larger) = _fits(
         recording(_stretches_and_rubs(7.0)), THRESHOLD, RUB
@@ -186,8 +187,8 @@ def test_what_leaves_noise_where_bending_leaves_more_need_not_keep_half(
     samples, further = larger.fit.samples, best.fit.cost - larger.fit.cost
     assert further < 0.06 * (null.fit.cost - larger.fit.cost)
     assert larger.fit.cost < samples + (2 * samples) ** 0.5
-    assert 0.4 * further > 100.0
-    unbent = {1: (1 + left) * samples, 2: (1 + left) * samples - 0.4 * further}
+    assert share * further > 100.0
+    unbent = {1: (1 + left) * samples, 2: (1 + left) * samples - share * further}
     monkeypatch.setattr(price, "bent", lambda _, rival, __: unbent[len(rival.names)])
     if left > 0.1:
         unbent[2] = samples
