@@ -17,7 +17,8 @@ class Found:
     rivals: tuple[Rival, ...]
     """All that were fitted in full, best first."""
     threshold: float
-    """Gain that noise alone reaches in one recording of a hundred. [nat]"""
+    """Gain that noise alone reaches in one recording of a hundred, and the least that
+    an effect beside others is believed for. [nat]"""
     gains: dict[str, float]
     """Gain of each name alone, linear. [nat]"""
     faint: tuple[str, ...]

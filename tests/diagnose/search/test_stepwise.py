@@ -66,6 +66,18 @@ def test_what_is_hidden_issearched(hidden: Hidden, names: set[str]) -> None:
     assert set(searched(hidden).best.names) == names
 
 
+@pytest.mark.parametrize(
+    ("kilopascals", "names"), [(2.0, ()), (2.5, ("threshold_pressure",))]
+)
+def test_a_first_effect_is_believed_at_odds_of_a_million(
+    kilopascals: float, names: tuple[str, ...]
+) -> None:
+    found = searched(threshold(kilopascals))
+    assert found.best.names == names
+    gain = found.best.evidence - found.null.evidence
+    assert not names or 13.8 < gain < 20.0
+
+
 def test_far_from_the_model_and_without_a_candidate_nothing_is_named() -> None:
     problem = pinned(problem_of(recording(threshold(60.0)), MODEL, {}), *OPEN)
     found = search(problem, (), np.random.default_rng(0))
