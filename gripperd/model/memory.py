@@ -2,7 +2,8 @@
 
 Each walks one sequence and carries its state in an array that the caller keeps, so
 that a run may be given whole or sample by sample with the same result. A state of NaN
-has not begun: it settles at the first sample.
+has not begun: it settles at the first sample. A sample of NaN is not known: within a
+call, the one before it holds on.
 
 References
 ----------
@@ -105,8 +106,9 @@ def dahl(
     """Sign of dry friction, which turns round over a distance after a reversal.
 
     Dahl's model with exponent 1: the sign nears a share of the direction by ``1 - 1/e``
-    in each distance gained in it [2]_. At rest it stays. The state, shape ``(2,)``,
-    holds how far the signal came and the sign, which begins at the direction.
+    in each distance gained in it [2]_. At rest it stays; where one of the three is not
+    known, neither is it. The state, shape ``(2,)``, holds how far the signal came and
+    the sign, which begins at the direction.
     """
     return compiled(_dahl)(signal, direction, share, distance, state)
 
@@ -157,9 +159,10 @@ def _lag(
     out = np.empty_like(signal)
     rise, fall = constants
     orifice, choke = throttle
-    last = state[0]
+    last = goal = state[0]
     for index in range(signal.size):
-        goal = signal[index]
+        if not np.isnan(signal[index]):
+            goal = signal[index]
         if np.isnan(last):
             last = goal
         constant = rise if goal > last else fall
@@ -201,6 +204,9 @@ def _dahl(
     last, sign = state[0], state[1]
     for index in range(signal.size):
         toward, goal = direction[index], share[index] * direction[index]
+        if np.isnan(signal[index]) or np.isnan(goal):
+            out[index] = np.nan
+            continue
         if np.isnan(last) or np.isnan(sign):
             last, sign = signal[index], toward
         # Noise goes to and fro: only what is gained counts.
@@ -224,8 +230,11 @@ def _leaked(
     out = np.empty_like(signal)
     rate, bend, refill = law
     lost, rested = state[0], state[1]
+    value = np.nan
     for index in range(signal.size):
-        left = signal[index] - lost
+        if not np.isnan(signal[index]):
+            value = signal[index]
+        left = value - lost
         if still[index] > 0 and left > 0 and rate > 0:
             # x^-n grows by n k t.
             gone = rate * step[index] * left**bend
@@ -235,10 +244,10 @@ def _leaked(
                 left *= np.exp(-gone)
             else:
                 left *= np.exp(-np.log1p(bend * gone) / bend)
-            lost, rested = signal[index] - left, left
+            lost, rested = value - left, left
         elif still[index] <= 0:
-            lost = min(lost, signal[index] - rested) * np.exp(-step[index] / refill)
-        lost = max(min(lost, signal[index]), 0.0)
+            lost = min(lost, value - rested) * np.exp(-step[index] / refill)
+        lost = max(min(lost, value), 0.0)
         out[index] = lost
     state[0], state[1] = lost, rested
     return out
