@@ -142,7 +142,10 @@ def _pieces(run: Run) -> Iterator[Run]:
 
 
 def stillness(sweep: Run) -> Array:
-    """Time since the command last moved, NaN where there is none. [s]."""
+    """Time since the command last moved, NaN where there is none. [s].
+
+    Before the first command that was read nobody knows that it moved.
+    """
     time = sweep.columns["time"]
     if not sweep.has("current"):
         return np.full_like(time, np.nan)
@@ -153,6 +156,8 @@ def _since(value: Array, time: Array, least: float) -> Array:
     out = np.empty_like(value)
     held, since = value[0], time[0]
     for i in range(value.size):
+        if np.isnan(held):
+            held = value[i]
         if abs(value[i] - held) > least:
             held, since = value[i], time[i]
         out[i] = time[i] - since

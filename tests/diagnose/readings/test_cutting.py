@@ -93,6 +93,15 @@ def test_stillness_is_the_time_since_the_command_moved() -> None:
     assert course.still[150] == 0.0
 
 
+def test_a_command_that_was_not_read_at_first_moves_all_the_same() -> None:
+    current = np.repeat([0.004, 0.012, 0.012, 0.008], 50)
+    current[[0, 1, 50, 120]] = np.nan
+    (course,) = cut(run(current=current, pressure=noise(200, 1e3)))
+    # The step that was missed is seen a sample late.
+    assert course.still[[0, 49, 51, 120, 149]] == pytest.approx([0, 4.9, 0, 6.9, 9.8])
+    assert course.still[150] == 0.0
+
+
 def test_a_stated_noise_is_a_lower_limit() -> None:
     runs = (run(pressure=triangle() + noise(400, 1e3)),)
     stated = Recording("r", "0" * 64, runs, noise={"pressure": 5e3})
