@@ -26,7 +26,9 @@ def leaps(value: Array, reach: float, step: Array) -> Mask:
     step
         Time since the sample before. A ramp in few slow samples does not leap. [s]
     """
-    change = np.abs(np.diff(value, prepend=value[0]))
-    beside = np.minimum(np.roll(change, 1), np.roll(change, -1))
-    ramps = (beside > ALIKE * change) & (step >= SLOW)
-    return (change > STEP * reach) & ~ramps
+    change = np.abs(np.diff(value))
+    # At the ends of a sweep only one neighbour can tell a ramp from a step.
+    around = np.pad(change, 1, constant_values=np.inf)
+    beside = np.minimum(around[:-2], around[2:])
+    ramps = (beside > ALIKE * change) & (step[1:] >= SLOW)
+    return np.append(False, (change > STEP * reach) & ~ramps)

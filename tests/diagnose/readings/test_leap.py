@@ -17,8 +17,12 @@ def _leaps(value: Array, seconds: float) -> list[int]:
 
 
 def test_a_ramp_in_few_slow_samples_does_not_leap() -> None:
-    # At its ends nothing tells it from a step.
-    assert _leaps(SWEEP, 0.2) == [1, SWEEP.size - 1]
+    assert _leaps(SWEEP, 0.2) == []
+
+
+def test_a_step_at_either_end_of_a_sweep_leaps() -> None:
+    ends = np.r_[0.0, np.full(6, 0.5), 1.0] * REACH
+    assert _leaps(ends, 0.2) == [1, 7]
 
 
 def test_in_fast_samples_two_sensors_do_not_see_the_same() -> None:
