@@ -3,6 +3,7 @@ import numpy as np
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.model.track import Array
 from tests.diagnose.sweep import run, triangle
 
 REST_LENGTH = 0.25
@@ -31,3 +32,35 @@ def test_a_run_that_ends_inflated_ends_an_inflation() -> None:
     held = np.full(100, 400e3)
     first, second = _cut(run("x", pressure=up), _after(run("y", pressure=held), 100.0))
     assert (first.cycle[-1], second.cycle[0]) == (0, 1)
+
+
+def _command(pressure: Array) -> Array:
+    return 4e-3 + 16e-3 * pressure / 500e3
+
+
+def test_a_command_tells_of_inflations_where_the_pressure_failed() -> None:
+    up_down = triangle(100, 0.0, 300e3)
+    twice = np.concatenate([up_down, up_down])
+    runs = [
+        run("a", pressure=twice, current=_command(twice)),
+        run("b", pressure=np.full(200, np.nan), current=_command(twice)),
+        run("c", current=_command(twice)),
+        run("d", pressure=twice),
+    ]
+    found = _cut(*(_after(one, 100.0 * n) for n, one in enumerate(runs)))
+    assert [course.cycle[0] for course in found] == [0, 2, 4, 6]
+    assert [course.cycle[130] for course in found] == [1, 3, 5, 7]
+
+
+def test_readings_that_are_missing_end_no_inflation() -> None:
+    pressure = np.repeat([0.0, 500e3, np.nan, 500e3, 0.0], 20)
+    (course,) = _cut(run("x", pressure=pressure))
+    assert (course.cycle[79], course.cycle[80]) == (0, 1)
+
+
+def test_without_pressure_and_command_no_inflation_is_known() -> None:
+    first, second = _cut(
+        run("x", force=triangle()), _after(run("y", force=triangle()), 100.0)
+    )
+    assert not first.cycle.any()
+    assert not second.cycle.any()
