@@ -20,7 +20,7 @@ CHECKS: tuple[Check, ...] = (
 
 
 def screened(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[Rejection, ...]]:
-    """Blank the readings that are not believed, and say why.
+    """Blank the readings that are not believed, and say why, each of them once.
 
     Returns
     -------
@@ -30,9 +30,11 @@ def screened(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[Rejection, ...
     rejected: list[Rejection] = []
     for check in CHECKS:
         for fault in tuple(check(believed)):
-            if fault.rows.any():
-                believed = _without(believed, fault)
-                rejected.append(_report(believed, fault))
+            known = ~np.isnan(believed[fault.run].columns[fault.quantity])
+            fresh = replace(fault, rows=fault.rows & known)
+            if fresh.rows.any():
+                believed = _without(believed, fresh)
+                rejected.append(_report(believed, fresh))
     return believed, _summed(rejected)
 
 

@@ -44,3 +44,13 @@ def test_two_freezes_of_one_channel_are_one_entry() -> None:
     force[50:65], force[300:330] = force[50], force[300]
     _, rejected = screened([sweep])
     assert rejected == (Rejection("a", "force_N", 45, "frozen value"),)
+
+
+def test_a_freeze_that_shows_in_two_ways_is_counted_once() -> None:
+    """Its noise stops, and it stands while the pressure moves."""
+    sweep = pulled()
+    force = sweep.columns["force"]
+    force[60:160] = force[60]
+    (after,), rejected = screened([sweep])
+    assert np.isnan(after.columns["force"]).sum() == 100
+    assert rejected == (Rejection("a", "force_N", 100, "frozen value"),)
