@@ -25,6 +25,9 @@ PERIODS = 10
 """Fewer of them in a sweep are no wave."""
 LOUD = 8.0
 """Times the mean from which an ordinate is part of the wave. [-]"""
+WHITE = 2.0
+"""Mean ordinate of white noise of unit variance: half as many as there are samples
+share the sum of their squares. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +62,7 @@ def ripple(white: Sequence[Array], times: Sequence[Array], noise: Noise) -> Ripp
         ordinates += density.size
         over = density / density.mean()
         part = over > LOUD
-        more = float((density[part] - 1.0).sum())
+        more = float((density[part] - WHITE).sum())
         excess += more
         power += more * _gain(noise, float(cycles[np.argmax(over)]))
         if over.max() > best:
