@@ -20,7 +20,9 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
 PIECES = 8
-"""Stretches into which a sweep is cut."""
+"""Stretches into which a sweep is cut at most."""
+FEWEST = 4
+"""Samples of a stretch."""
 LEVEL = 0.01
 """Chance of any false finding in a whole recording."""
 STAGES: Mapping[Signal, str] = {
@@ -82,9 +84,8 @@ def _cells(problem: Problem, block: Block, residual: Array) -> Iterator[Finding]
     course = problem.courses[block.course]
     noise = problem.noises[block.signal]
     chosen = np.flatnonzero(block.good)
-    for piece in np.array_split(np.arange(residual.size), PIECES):
-        if piece.size < 4:
-            continue
+    pieces = min(PIECES, residual.size // FEWEST)
+    for piece in np.array_split(np.arange(residual.size), pieces) if pieces else ():
         slow = noise.slow_variance / piece.size + noise.drift**2
         std = float(np.sqrt(slow))
         bias = float(np.mean(residual[piece]))

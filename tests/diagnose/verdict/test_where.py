@@ -96,6 +96,28 @@ def test_the_largest_comes_first(plain: Problem) -> None:
     assert [one.run for one in findings(plain, residuals)] == ["b", "d"]
 
 
+@pytest.mark.parametrize(("apart", "pieces"), [(4, 5), (10, 2), (16, 1)])
+def test_a_short_sweep_is_cut_into_fewer_stretches(
+    plain: Problem, apart: int, pieces: int
+) -> None:
+    kept = tuple(np.arange(len(course)) % apart == 1 for course in plain.courses)
+    short = replace(plain, kept=kept)
+    residuals = [np.zeros(time.size) for time in short.times]
+    ((left, time),) = (
+        (residual, time)
+        for residual, time, block in zip(
+            residuals, short.times, short.blocks, strict=True
+        )
+        if plain.courses[block.course].run == "d"
+    )
+    assert time.size // pieces >= 4
+    last = time.size - time.size // pieces
+    left[last:] = 20.0
+    (found,) = findings(short, residuals)
+    assert (found.run, found.bias) == ("d", 20.0)
+    assert found.region["time"] == (time[last], time[-1])
+
+
 def test_chances_are_corrected_by_holm(plain: Problem) -> None:
     # Alternating signs, so that none are joined; the first are clear, the last not.
     biases = [12.0, -9.0, 6.0, -5.0, 4.5, -4.0, 3.5, -3.0]
