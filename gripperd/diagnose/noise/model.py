@@ -15,6 +15,11 @@ from gripperd.model.track import Array
 
 CONSISTENT = 1.4826
 """Median absolute deviation to standard deviation, for a normal law."""
+LONG = 8
+"""Samples, for each of a lag, beyond which a piece tells the spread over it."""
+SHORT = 3
+"""The same over one sample, where no piece is long. The standard deviation of white
+noise is right to 4 % from pieces of five samples on, and 22 % too low from four."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,13 +46,16 @@ class Noise:
         return float(np.hypot(self.std, self.drift))
 
 
-def quick_noise(pieces: Iterable[Array], step: float = 0.0) -> Noise:
+def quick_noise(
+    pieces: Iterable[Array], step: float = 0.0, shortest: int = SHORT
+) -> Noise:
     """Standard deviation and correlation of neighbours, from differences.
 
     With ``v_k`` half the mean square of differences over k samples, first-order
     autoregressive noise has ``v_1 = s²(1-r)`` and ``v_2 = s²(1-r²)``, so
     ``r = v_2/v_1 - 1``. Signals that are smooth over three samples leave no trace, for
-    second differences are used where first ones would see their slope.
+    second differences are used where first ones would see their slope. Pieces that are
+    all short tell ``v_1`` alone, and the noise is taken for white.
 
     Parameters
     ----------
@@ -55,9 +63,14 @@ def quick_noise(pieces: Iterable[Array], step: float = 0.0) -> Noise:
         Columns of runs, shape ``(n,)`` each, in order of time.
     step
         Of the converter that gave them, see :func:`coarse_step`. [unit of the column]
+    shortest
+        Samples beyond which a piece tells where none is long. Of a few settled points
+        the set points would be taken for noise, unless a model has taken them off.
     """
     pieces = [piece[np.isfinite(piece)] for piece in pieces]
-    v1, v2, v3 = (_spread(pieces, lag, step) for lag in (1, 2, 3))
+    v1, v2, v3 = (_spread(pieces, lag, step, LONG * lag) for lag in (1, 2, 3))
+    if not any(piece.size > LONG for piece in pieces):
+        v1 = _spread(pieces, 1, step, shortest)
     if v1 <= 0:
         return Noise(_resolution(pieces), 0.0)
     r = float(np.clip(v2 / v1 - 1, 0.0, 0.9))
@@ -99,11 +112,11 @@ def coarse_step(pieces: Iterable[Array]) -> float:
     return float(np.diff(levels[again]).min())
 
 
-def _spread(pieces: list[Array], lag: int, step: float) -> float:
+def _spread(pieces: list[Array], lag: int, step: float, beyond: int) -> float:
     """Half the mean square of differences over a lag, robust, without their trend."""
     found: list[Array] = []
     for piece in pieces:
-        if piece.size > 8 * lag:
+        if piece.size > beyond:
             change = piece[lag:] - piece[:-lag]
             found.append(change - _running_median(change))
     if not found:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
 from gripperd.diagnose.readings.level import MOVES, levels
@@ -67,7 +67,7 @@ def courses(
         for name in names
     }
     noises = {
-        name: quick_noise(columns, coarse_step(columns))
+        name: quick_noise(columns, coarse_step(columns), LONG)
         for name, columns in readings.items()
     }
     stepped = noise_on_stairs([

@@ -33,6 +33,31 @@ def test_differences_between_runs_are_no_noise() -> None:
     assert quick_noise(pieces).std == pytest.approx(2.5, rel=0.05)
 
 
+@pytest.mark.parametrize("size", [5, 6, 7, 8])
+def test_many_short_pieces_tell_of_their_noise(size: int) -> None:
+    slope = 40.0 * np.arange(size)
+    pieces = [slope + noise(size, 2.5, seed) + seed for seed in range(600)]
+    found = quick_noise(pieces)
+    assert found.std == pytest.approx(2.5, rel=0.07)
+    assert found.correlation == 0.0
+
+
+def test_pieces_of_four_samples_tell_a_little_less() -> None:
+    found = quick_noise([noise(4, 2.5, seed) for seed in range(600)])
+    assert 0.7 * 2.5 < found.std < 2.5
+
+
+def test_short_pieces_say_nothing_of_the_spread_beside_a_long_one() -> None:
+    piece = noise(SIZE, 2.5)
+    jumps = [np.array([0.0, 900.0, 0.0, -900.0, 900.0])] * 100
+    assert quick_noise([piece, *jumps]).std == pytest.approx(2.5, rel=0.05)
+
+
+def test_short_pieces_that_repeat_one_reading_leave_the_resolution() -> None:
+    steady = [np.full(6, 2.0), np.full(6, 2.4)]
+    assert quick_noise(steady).std == pytest.approx(0.4 / 12**0.5)
+
+
 def test_missing_samples_are_left_out() -> None:
     column = noise(SIZE, 2.5)
     column[::7] = np.nan

@@ -110,6 +110,16 @@ def test_a_stated_noise_is_a_lower_limit() -> None:
     assert courses(stated, REST_LENGTH)[1]["pressure"].std == 5e3
 
 
+def test_set_points_of_a_few_settled_points_are_no_noise() -> None:
+    points = 1e3 * np.array([0.0, 150.0, 300.0, 450.0, 300.0, 150.0, 0.0])
+    runs = tuple(
+        _after(run(f"{n}", pressure=points + noise(7, 500.0, n)), 100.0 * n)
+        for n in range(8)
+    )
+    found = courses(Recording("r", "0" * 64, runs), REST_LENGTH)[1]["pressure"]
+    assert found.std < 1e3
+
+
 def test_sweeps_come_in_the_order_of_the_recording() -> None:
     runs = [
         _after(run(name, pressure=triangle()), 100.0 * n)
