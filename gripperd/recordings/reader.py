@@ -1,10 +1,11 @@
 """A recording from its file: read, put into SI, screened."""
 
+from collections.abc import Iterator, Sequence
 from hashlib import sha256
 from pathlib import Path
 
 from gripperd.diagnose.readings.columns import COLUMNS
-from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.readings.recording import Recording, Rejection, Run
 from gripperd.diagnose.readings.repeats import contradictions
 from gripperd.diagnose.readings.screening import screened
 from gripperd.errors import InputError
@@ -43,8 +44,18 @@ def read_recording(path: Path) -> Recording:
         noise=side.noise,
         rejected=(*cut.rejected, *rejected),
         contradictions=contradictions(runs),
-        remarks=(*unread, *cut.remarks, *side.remarks),
+        remarks=(*_lost(runs, rejected), *unread, *cut.remarks, *side.remarks),
     )
+
+
+def _lost(runs: Sequence[Run], rejected: Sequence[Rejection]) -> Iterator[str]:
+    """Name the columns of which nothing is believed: they count as not there."""
+    for name in dict.fromkeys(entry.column for entry in rejected):
+        if not any(run.has(COLUMNS[name].quantity) for run in runs):
+            reasons = dict.fromkeys(
+                one.reason for one in rejected if one.column == name
+            )
+            yield f"Every reading of {name} is rejected: {', '.join(reasons)}."
 
 
 def _content(path: Path) -> bytes:

@@ -76,6 +76,23 @@ def test_an_empty_column_is_not_measured_and_said_to_be(write: Write) -> None:
     assert recording.remarks == ("Column grip_N is empty: not measured.",)
 
 
+def test_a_column_of_which_nothing_is_believed_is_the_first_remark(
+    write: Write,
+) -> None:
+    columns = good() | {"current_mA": [0.0] * 29 + [25.0]} | {"grip_N": [""] * 30}
+    recording = read_recording(write(columns))
+    assert recording.remarks == (
+        "Every reading of current_mA is rejected: under 3.6 mA, above 21 mA.",
+        "Column grip_N is empty: not measured.",
+    )
+
+
+def test_a_column_with_one_reading_that_is_believed_is_not_lost(write: Write) -> None:
+    recording = read_recording(write(good() | {"current_mA": [0.0] * 29 + [4.0]}))
+    assert recording.rejected[0].count == 29
+    assert recording.remarks == ()
+
+
 def test_readings_that_are_no_number_are_reported(write: Write) -> None:
     columns = good()
     columns["force_N"][3] = "inf"
