@@ -10,6 +10,7 @@ import typer
 
 from gripperd import __version__
 from gripperd.cli.app import ConfigFile, app
+from gripperd.cli.outputs import check_outputs, write
 from gripperd.cli.waiting import progress
 from gripperd.errors import ConfigError, InputError
 
@@ -46,9 +47,8 @@ def diagnose(  # noqa: PLR0913  (its options)
     ] = None,
 ) -> None:
     """Find where a model is wrong, which effect it lacks, and how much that closes."""
-    for place in (report, Path(as_json) if as_json not in (None, STDOUT) else None):
-        _check_place(place)
     asked = _asked(model, config, gripper)
+    _check_files(recording, asked, as_json, report)
     found = _found(recording, asked, seed)
     if as_json is not None:
         _write_json(found, asked, as_json)
@@ -75,6 +75,22 @@ def _asked(model: Path | None, config: Path | None, gripper: str | None) -> "Mod
     except ConfigError as broken:
         # The file is what was asked about, not the configuration of a daemon.
         raise InputError(str(broken), key="--model") from None
+
+
+def _check_files(
+    recording: Path, model: "ModelFile", as_json: str | None, report: Path | None
+) -> None:
+    written: dict[str, Path] = {}
+    if as_json is not None and as_json != STDOUT:
+        written["--json"] = Path(as_json)
+    if report is not None:
+        written["--report"] = report
+    read = {
+        "the recording": recording,
+        "the side file of the recording": recording.with_suffix(".yaml"),
+        "the model": Path(model.source),
+    }
+    check_outputs(written, read)
 
 
 def _found(recording: Path, model: "ModelFile", seed: int) -> "Diagnosis":
@@ -109,7 +125,7 @@ def _write_json(found: "Diagnosis", model: "ModelFile", place: str) -> None:
     if place == STDOUT:
         typer.echo(text, nl=False)
     else:
-        _write(Path(place), text)
+        write(Path(place), text)
 
 
 def _write_report(
@@ -117,7 +133,7 @@ def _write_report(
 ) -> None:
     from gripperd.report import page
 
-    _write(place, page(found, model=model.name, program=__version__))
+    write(place, page(found, model=model.name, program=__version__))
     if told:
         typer.echo(f"wrote {place.resolve().as_uri()}")
 
@@ -142,23 +158,3 @@ def _apply(
             typer.echo(f"to go by it: gripperd model activate {version.number}")
         else:
             typer.echo("to go by it, name that file as the model of a gripper")
-
-
-def _check_place(place: Path | None) -> None:
-    """Complain before the work, not after it."""
-    if place is None:
-        return
-    if not place.parent.is_dir():
-        message = f"{place}: there is no folder {place.parent}"
-        raise InputError(message)
-    if place.is_dir():
-        message = f"{place}: is a folder; name a file in it"
-        raise InputError(message)
-
-
-def _write(place: Path, text: str) -> None:
-    try:
-        place.write_text(text, encoding="utf-8")
-    except OSError as refusal:
-        message = f"{place}: cannot be written: {refusal.strerror}"
-        raise InputError(message) from refusal
