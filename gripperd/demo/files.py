@@ -9,10 +9,13 @@ import yaml
 
 from gripperd.demo.programme import PAUSE, programmes
 from gripperd.demo.rig import ANGLE, CURRENT, DIAMETER, LENGTH, PRESSURE, Hidden, Rig
+from gripperd.errors import InputError
 from gripperd.units import KILO, MILLI
 
 STEP = 0.15
 """Time between samples; gives about 2500 rows. [s]"""
+FILES = ("rig.csv", "rig.yaml", "model.yaml", "report.html", "diagnosis.json")
+"""Everything that a demonstration writes beside its versions."""
 HEADER = ("run", "t_s", "current_mA", "pressure_kPa", "contraction", "force_N")
 
 
@@ -32,19 +35,23 @@ def write_rig(folder: Path, hidden: Hidden, seed: int, step: float = STEP) -> No
 
     Raises
     ------
+    InputError
+        A file that would be replaced is not of an earlier demonstration.
     OSError
         It cannot be written.
     """
+    _check_folder(folder)
+    # First, so that what an interruption leaves is known for a demonstration.
+    for name, text in _same_always().items():
+        (folder / name).write_bytes(text)
     draws = np.random.default_rng(seed)
     rig = Rig.built(hidden, draws)
-    kinds: dict[str, dict[str, str]] = {}
     start = 0.0
     with (folder / "rig.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)
         for programme in programmes(step):
             said = rig.run(programme, draws)
-            kinds[programme.name] = {"kind": programme.kind}
             columns = (
                 start + said.time,
                 said.current / MILLI,
@@ -55,8 +62,27 @@ def write_rig(folder: Path, hidden: Hidden, seed: int, step: float = STEP) -> No
             for row in zip(*(column.tolist() for column in columns), strict=True):
                 writer.writerow((programme.name, *(f"{value:.6g}" for value in row)))
             start += float(said.time[-1]) + PAUSE
-    _write_yaml(folder / "rig.yaml", {"rig": "demonstration", "runs": kinds})
-    _write_yaml(folder / "model.yaml", _model())
+
+
+def _check_folder(folder: Path) -> None:
+    """Refuse to replace a file of somebody's own."""
+    there = [name for name in FILES if (folder / name).exists()]
+    for name, text in _same_always().items():
+        place = folder / name
+        if there and not (place.exists() and place.read_bytes() == text):
+            own = place if place.exists() else folder / there[0]
+            message = (
+                f"{own}: is of no earlier demonstration and would be replaced;"
+                " name another folder for --out"
+            )
+            raise InputError(message, key="--out")
+
+
+def _same_always() -> dict[str, bytes]:
+    """Content of the files that are the same whatever is hidden, by name."""
+    kinds = {one.name: {"kind": one.kind} for one in programmes(STEP)}
+    side: dict[str, object] = {"rig": "demonstration", "runs": kinds}
+    return {"rig.yaml": _yaml(side), "model.yaml": _yaml(_model())}
 
 
 def _model() -> dict[str, object]:
@@ -79,6 +105,6 @@ def _model() -> dict[str, object]:
     }
 
 
-def _write_yaml(path: Path, content: dict[str, object]) -> None:
+def _yaml(content: dict[str, object]) -> bytes:
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None)
-    path.write_text(text, encoding="utf-8")
+    return text.encode()

@@ -62,7 +62,8 @@ def demonstrate(  # noqa: PLR0913  (what, where, when)
     Raises
     ------
     InputError
-        The folder cannot be written, or the extra ``report`` is not installed.
+        The folder cannot be written or holds files of somebody's own, or the extra
+        ``report`` is not installed.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -8,6 +8,7 @@ import pytest
 from gripperd.demo.files import HEADER, write_rig
 from gripperd.demo.programme import programmes
 from gripperd.demo.rig import ANGLE, DIAMETER, Hidden, Rig
+from gripperd.errors import InputError
 
 
 def rig(hidden: Hidden) -> Rig:
@@ -89,3 +90,34 @@ def test_the_same_seed_gives_the_same_bytes(tmp_path: Path) -> None:
     one, same, other = ((tmp_path / n / "rig.csv").read_bytes() for n in "abc")
     assert one == same
     assert one != other
+
+
+@pytest.mark.parametrize(
+    "own", ["model.yaml", "rig.yaml", "rig.csv", "report.html", "diagnosis.json"]
+)
+def test_what_somebody_else_wrote_is_not_replaced(tmp_path: Path, own: str) -> None:
+    (tmp_path / own).write_text("mine")
+    with pytest.raises(InputError, match=f"{own}: is of no earlier demonstration"):
+        write_rig(tmp_path, Hidden.CREEP, 1, 0.5)
+    assert (tmp_path / own).read_text() == "mine"
+    assert [one.name for one in tmp_path.iterdir()] == [own]
+
+
+def test_a_model_that_was_edited_since_is_not_replaced(tmp_path: Path) -> None:
+    write_rig(tmp_path, Hidden.CREEP, 1, 0.5)
+    model, recording = tmp_path / "model.yaml", tmp_path / "rig.csv"
+    edited = model.read_text().replace("diameter_mm: 20.0", "diameter_mm: 21.0")
+    model.write_text(edited)
+    before = recording.read_bytes()
+    with pytest.raises(InputError, match=r"model\.yaml: is of no earlier") as refused:
+        write_rig(tmp_path, Hidden.THRESHOLD, 2, 0.5)
+    assert refused.value.key == "--out"
+    assert model.read_text() == edited
+    assert recording.read_bytes() == before
+
+
+def test_a_demonstration_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
+    write_rig(tmp_path, Hidden.CREEP, 1, 0.5)
+    before = (tmp_path / "rig.csv").read_bytes()
+    write_rig(tmp_path, Hidden.THRESHOLD, 2, 0.5)
+    assert (tmp_path / "rig.csv").read_bytes() != before
