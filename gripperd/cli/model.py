@@ -1,6 +1,7 @@
 """Commands about versions of a model: list, show, compare, activate, go back."""
 
 import json
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -17,6 +18,8 @@ app.add_typer(model_app, name="model")
 
 PIPE_WIDTH = 240
 """Columns where there is no terminal to ask: nothing is wrapped."""
+FACTS = ("parent", "created_at", "added", "gap")
+"""What is listed of a version beside its name."""
 
 GripperName = Annotated[
     str | None,
@@ -44,7 +47,8 @@ def list_versions(
         }
         typer.echo(json.dumps(facts))
         return
-    _print(_shelf_table(shelf))
+    for line in _listed(shelf):
+        typer.echo(line)
     for complaint in shelf.complaints:
         typer.echo(f"warning: {complaint}", err=True)
 
@@ -134,27 +138,24 @@ def _tell(version: "Version", taken_up: bool, *, as_json: bool) -> None:
         typer.echo("no daemon runs; one goes by it from its next start")
 
 
-def _shelf_table(shelf: "Shelf") -> Table:
+def _listed(shelf: "Shelf") -> Iterator[str]:
+    """A version and what is known of it, a line each: a table would be too wide."""
     from gripperd.cli.versions import summary
 
-    table = Table(
-        "", "version", "name", "parent", "created", "added", "gap", title=None
-    )
     for version in shelf.versions:
         facts = summary(version, shelf.active)
-        table.add_row(
-            "*" if facts["active"] else "",
-            str(version.number),
-            version.name,
-            *(_shown(facts[key]) for key in ("parent", "created_at", "added", "gap")),
-        )
-    return table
+        yield f"{'*' if facts['active'] else ' '} {version.number}  {version.name}"
+        for key in FACTS:
+            value = facts[key]
+            for index, one in enumerate(value if isinstance(value, list) else [value]):
+                if one is not None:
+                    yield f"     {'' if index else key:<10}  {one}"
 
 
 def _change_table(
     old: "Version", new: "Version", changes: "tuple[Change, ...]"
 ) -> Table:
-    table = Table("what", old.name, new.name, title=None)
+    table = Table("what", old.name, new.name, box=None)
     for change in changes:
         table.add_row(change.path, _shown(change.before), _shown(change.after))
     return table
@@ -163,8 +164,6 @@ def _change_table(
 def _shown(value: object) -> str:
     if value is None:
         return "-"
-    if isinstance(value, list):
-        return ", ".join(map(str, value)) or "-"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 

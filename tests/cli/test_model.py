@@ -84,9 +84,14 @@ def run(settings: Path) -> Run:
 
 
 def test_versions_are_listed_with_what_they_closed(run: Run) -> None:
-    table = run("model", "list")
-    assert "coulomb_friction" in table
-    assert "force_N: 20.4 -> 2.2 N, noise 2 N" in table
+    assert run("model", "list").splitlines() == [
+        "* 0  reference",
+        "  1  reference-1",
+        "     parent      0",
+        "     created_at  2026-01-31T12:00:00+00:00",
+        "     added       coulomb_friction",
+        "     gap         force_N: 20.4 -> 2.2 N, noise 2 N",
+    ]
     found = json.loads(run("model", "list", "--json"))
     assert (found["active"], found["complaints"]) == (0, [])
     assert [one["name"] for one in found["versions"]] == ["reference", "reference-1"]
@@ -129,7 +134,11 @@ def test_versions_are_compared(run: Run) -> None:
             "after": 0.0,
         },
     ]
-    assert "effects.coulomb_friction.magnitude_N" in run("model", "diff", "0", "1")
+    table = run("model", "diff", "0", "1").splitlines()
+    assert table[0].split() == ["what", "reference", "reference-1"]
+    assert table[1].split() == ["effects.coulomb_friction", "-", "present"]
+    assert table[2].split() == ["effects.coulomb_friction.magnitude_N", "-", "20"]
+    assert max(map(len, table)) <= 80
     assert (
         run("model", "diff", "1", "1") == "reference-1 and reference-1 do not differ\n"
     )
