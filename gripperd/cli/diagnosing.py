@@ -2,7 +2,6 @@
 
 import json
 import os
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -61,7 +60,11 @@ def diagnose(  # noqa: PLR0913  (its options)
     if report is not None:
         _write_report(found, asked, report, told=told)
     if add:
-        _apply(found, asked, config, told=told)
+        from gripperd.cli.acceptance import accept
+
+        lines = accept(found, asked, config)
+        if told:
+            typer.echo("\n".join(lines))
 
 
 def _asked(model: Path | None, config: Path | None, gripper: str | None) -> "ModelFile":
@@ -136,25 +139,3 @@ def _write_report(
     write(place, page(found, model=model.name, program=__version__))
     if told:
         typer.echo(f"wrote {place.resolve().as_uri()}")
-
-
-def _apply(
-    found: "Diagnosis", model: "ModelFile", config: Path | None, *, told: bool
-) -> None:
-    from gripperd.cli.parentage import parent_of
-    from gripperd.store.improvement import improvement
-
-    parent = parent_of(model, config)
-    better = improvement(model, found, __version__)
-    version = parent.versions.add(
-        better.model,
-        parent=parent.number,
-        created_at=datetime.now(UTC),
-        provenance=better.provenance,
-    )
-    if told:
-        typer.echo(f"kept as {version.name}: {version.model.source}")
-        if parent.is_configured:
-            typer.echo(f"to go by it: gripperd model activate {version.number}")
-        else:
-            typer.echo("to go by it, name that file as the model of a gripper")

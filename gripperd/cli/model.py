@@ -18,7 +18,7 @@ app.add_typer(model_app, name="model")
 
 PIPE_WIDTH = 240
 """Columns where there is no terminal to ask: nothing is wrapped."""
-FACTS = ("parent", "created_at", "added", "gap")
+FACTS = ("parent", "created_at", "added", "refitted", "gap")
 """What is listed of a version beside its name."""
 
 GripperName = Annotated[

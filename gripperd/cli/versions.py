@@ -88,6 +88,7 @@ def summary(version: Version, active: int) -> dict[str, object]:
         "parent": None,
         "created_at": None,
         "added": [],
+        "refitted": [],
         "gap": None,
     }
     if lineage is None:
@@ -97,6 +98,7 @@ def summary(version: Version, active: int) -> dict[str, object]:
         "parent": lineage.parent,
         "created_at": lineage.created_at.isoformat(timespec="seconds"),
         "added": [effect.name for effect in made.effects],
+        "refitted": [constant.name for constant in made.refitted],
     }
     if (gap := made.gap) is not None:
         facts["gap"] = (

@@ -102,6 +102,9 @@ class Provenance(Section):
     recording: Recorded
     seed: int = Field(ge=0)
     effects: Listed[Added] = ()
+    """What was named: effects, and constants that were wrong."""
+    refitted: Listed[Added] = ()
+    """Constants that moved with it by more than their tolerance, and were not named."""
     covariance: Covariance | None = None
     gap: Gap | None = None
     heldout_runs: Listed[str] = ()

@@ -52,6 +52,12 @@ def add_version(settings: Path) -> Version:
             effects=(
                 Added(name="coulomb_friction", parameters={"magnitude_N": FRICTION}),
             ),
+            refitted=(
+                Added(
+                    name="parameter:muscle.diameter_mm",
+                    parameters={"diameter_mm": 20.1},
+                ),
+            ),
             gap=Gap(
                 signal="force_N",
                 unit="N",
@@ -90,12 +96,16 @@ def test_versions_are_listed_with_what_they_closed(run: Run) -> None:
         "     parent      0",
         "     created_at  2026-01-31T12:00:00+00:00",
         "     added       coulomb_friction",
+        "     refitted    parameter:muscle.diameter_mm",
         "     gap         force_N: 20.4 -> 2.2 N, noise 2 N",
     ]
     found = json.loads(run("model", "list", "--json"))
     assert (found["active"], found["complaints"]) == (0, [])
     assert [one["name"] for one in found["versions"]] == ["reference", "reference-1"]
-    assert found["versions"][1]["parent"] == 0
+    listed = found["versions"][1]
+    assert listed["parent"] == 0
+    assert listed["added"] == ["coulomb_friction"]
+    assert listed["refitted"] == ["parameter:muscle.diameter_mm"]
 
 
 def test_a_version_is_shown_as_a_model_file(run: Run, tmp_path: Path) -> None:

@@ -1,0 +1,50 @@
+"""What a diagnosis named, kept as a new version, and how to go by it."""
+
+from datetime import UTC, datetime
+from pathlib import Path
+
+from gripperd import __version__
+from gripperd.cli.parentage import parent_of
+from gripperd.config import ModelFile
+from gripperd.config.lineage import Added
+from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.fit.candidates import WRONG
+from gripperd.store.improvement import improvement
+
+
+def accept(found: Diagnosis, model: ModelFile, config: Path | None) -> list[str]:
+    """Keep what was named as a version of the model that was judged.
+
+    Returns
+    -------
+    What became of it, a line each.
+
+    Raises
+    ------
+    Refused
+        Nothing was named or confirmed, or another model of that name is configured.
+    ConfigError
+        The configuration is unusable.
+    """
+    parent = parent_of(model, config)
+    better = improvement(model, found, __version__)
+    version = parent.versions.add(
+        better.model,
+        parent=parent.number,
+        created_at=datetime.now(UTC),
+        provenance=better.provenance,
+    )
+    lines = [f"kept as {version.name}: {version.model.source}"]
+    if moved := ", ".join(map(_moved, better.provenance.refitted)):
+        lines.append(f"with it these constants moved: {moved}")
+    if parent.is_configured:
+        lines.append(f"to go by it: gripperd model activate {version.number}")
+    else:
+        lines.append("to go by it, name that file as the model of a gripper")
+    return lines
+
+
+def _moved(constant: Added) -> str:
+    """Write a constant that was refitted, such as ``muscle.diameter_mm to 20.3``."""
+    (value,) = constant.parameters.values()
+    return f"{constant.name.removeprefix(WRONG)} to {value:.4g}"
