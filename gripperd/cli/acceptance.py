@@ -13,7 +13,7 @@ from gripperd.store.improvement import improvement
 
 
 def accept(found: Diagnosis, model: ModelFile, config: Path | None) -> list[str]:
-    """Keep what was named as a version of the model that was judged.
+    """Keep what was named as a version of the model that was judged, once.
 
     Returns
     -------
@@ -28,14 +28,15 @@ def accept(found: Diagnosis, model: ModelFile, config: Path | None) -> list[str]
     """
     parent = parent_of(model, config)
     better = improvement(model, found, __version__)
-    version = parent.versions.add(
-        better.model,
-        parent=parent.number,
-        created_at=datetime.now(UTC),
-        provenance=better.provenance,
-    )
-    lines = [f"kept as {version.name}: {version.model.source}"]
-    if moved := ", ".join(map(_moved, better.provenance.refitted)):
+    versions, number, made = parent.versions, parent.number, better.provenance
+    version = versions.same(better.model, parent=number, provenance=made)
+    word = "kept" if version is None else "already kept"
+    if version is None:
+        version = versions.add(
+            better.model, parent=number, created_at=datetime.now(UTC), provenance=made
+        )
+    lines = [f"{word} as {version.name}: {version.model.source}"]
+    if moved := ", ".join(map(_moved, made.refitted)):
         lines.append(f"with it these constants moved: {moved}")
     if parent.is_configured:
         lines.append(f"to go by it: gripperd model activate {version.number}")

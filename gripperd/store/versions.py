@@ -17,6 +17,7 @@ from gripperd.config.durable import create_file
 from gripperd.config.lineage import Lineage, Provenance
 from gripperd.config.model_text import model_text
 from gripperd.errors import ConfigError, NotFound, Refused
+from gripperd.store.difference import difference
 from gripperd.store.pointer import Pointer, locked, read_pointer, write_pointer
 from gripperd.store.sealed import check_seal, sealed
 
@@ -113,6 +114,21 @@ class Versions:
             text = model_text(replace(model, name=name, lineage=lineage))
             create_file(self._file(number), sealed(text), check=load_model)
         return self.get(number)
+
+    def same(
+        self, model: ModelFile, *, parent: int, provenance: Provenance
+    ) -> Version | None:
+        """The first version of that parent, recording and content; None without one."""
+        for version in self.all().versions:
+            lineage = version.model.lineage
+            if lineage is None or lineage.parent != parent:
+                continue
+            recorded = lineage.provenance.recording.sha256
+            if recorded == provenance.recording.sha256 and not difference(
+                version.model, model
+            ):
+                return version
+        return None
 
     def all(self) -> Shelf:
         """Every version; one broken file costs one version."""

@@ -43,3 +43,13 @@ def test_what_was_named_is_told_apart_from_constants_that_moved_with_it(
     pressure = version.regulator.pressure_high / 1e3
     said = f"valve.pressure_high_kPa to {pressure:.4g}"
     assert moved == f"with it these constants moved: {said}"
+
+
+def test_what_was_kept_is_not_kept_again(
+    creep: tuple[ModelFile, Diagnosis], config: Path, kept: Path
+) -> None:
+    model, found = creep
+    said = accept(found, model, config)
+    again = accept(found, model, config)
+    assert again == [f"already {said[0]}", *said[1:]]
+    assert sorted(one.name for one in kept.parent.glob("[!.]*.yaml")) == ["1.yaml"]

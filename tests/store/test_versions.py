@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gripperd.config import ModelFile, load_model, shipped
-from gripperd.config.lineage import Provenance
+from gripperd.config.lineage import Provenance, Recorded
 from gripperd.effects.creep import Creep
 from gripperd.effects.valve_lag import ValveLag
 from gripperd.errors import ConfigError, NotFound, Refused
@@ -47,6 +47,22 @@ def test_a_version_is_kept_with_where_it_comes_from(
     assert (lineage.parent, lineage.created_at) == (1, NOW)
     assert lineage.provenance == provenance
     assert versions.active == 0
+
+
+def test_the_same_of_the_same_recording_is_found_again(
+    versions: Versions, provenance: Provenance
+) -> None:
+    kept = add(versions, provenance)
+    add(versions, provenance)
+    model = with_creep(versions.get(0).model)
+    other = provenance.model_copy(
+        update={"recording": Recorded(name="steps.csv", sha256="1" * 64)}
+    )
+    assert versions.same(model, parent=0, provenance=provenance) == kept
+    assert versions.same(model, parent=1, provenance=provenance) is None
+    assert versions.same(model, parent=0, provenance=other) is None
+    stiffer = with_creep(versions.get(0).model, 0.031)
+    assert versions.same(stiffer, parent=0, provenance=provenance) is None
 
 
 def test_an_effect_outside_the_muscle_is_kept_too(
