@@ -26,7 +26,11 @@ class Change:
 
 
 def difference(before: ModelFile, after: ModelFile) -> tuple[Change, ...]:
-    """Every constant, tolerance and effect that differs, in the order of the file."""
+    """Every constant, tolerance and effect that differs, in the order of the file.
+
+    A fitted parameter that one sigma would take past a bound has no tolerance. What is
+    known of it stands as ``.std``, from where the model says that it comes from.
+    """
     old, new = _values(before), _values(after)
     return tuple(
         Change(path, old.get(path), new.get(path))
@@ -38,7 +42,18 @@ def difference(before: ModelFile, after: ModelFile) -> tuple[Change, ...]:
 def _values(model: ModelFile) -> dict[str, Value]:
     document = model_document(model)
     parts = {part: document.get(part) for part in ("muscle", "valve", "gripper")}
-    return dict(chain(_flat("", parts), _effects(document["effects"])))
+    values = dict(chain(_flat("", parts), _effects(document["effects"])))
+    return values | dict(_untold(model, values))
+
+
+def _untold(model: ModelFile, told: Mapping[str, Value]) -> Iterator[tuple[str, Value]]:
+    """Standard deviations of parameters that have no tolerance."""
+    named = model.lineage.provenance.effects if model.lineage else ()
+    for effect in named:
+        for key, std in effect.std.items():
+            path = f"effects.{effect.name}.{key}"
+            if std > 0 and path in told and f"{path}.tolerance" not in told:
+                yield f"{path}.std", std
 
 
 def _effects(listed: object) -> Iterator[tuple[str, Value]]:

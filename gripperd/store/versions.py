@@ -123,9 +123,10 @@ class Versions:
             lineage = version.model.lineage
             if lineage is None or lineage.parent != parent:
                 continue
+            content = replace(version.model, lineage=None)
             recorded = lineage.provenance.recording.sha256
             if recorded == provenance.recording.sha256 and not difference(
-                version.model, model
+                content, replace(model, lineage=None)
             ):
                 return version
         return None

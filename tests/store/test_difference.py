@@ -1,8 +1,10 @@
 from dataclasses import replace
 
+from gripperd.config.lineage import Provenance
 from gripperd.effects.creep import Creep
 from gripperd.model import StaticMuscle
 from gripperd.store import Change, Versions, difference
+from tests.store.conftest import NOW
 
 
 def test_nothing_differs_from_itself(versions: Versions) -> None:
@@ -45,6 +47,24 @@ def test_constants_tolerances_and_effects_are_told_in_the_units_of_the_file(
         Change("effects.creep.fresh", None, 0.0),
         Change("effects.creep.of", None, "pull"),
     )
+
+
+def test_a_deviation_that_is_no_tolerance_is_told_all_the_same(
+    versions: Versions, provenance: Provenance
+) -> None:
+    before = versions.get(0).model
+    # Nothing beyond 0.15 is possible, so 0.149 has no tolerance of 0.002.
+    effects = (*before.static.effects, Creep(slow=0.149, time=2.0))
+    after = replace(before, static=replace(before.static, effects=effects))
+    kept = versions.add(after, parent=0, created_at=NOW, provenance=provenance)
+    found = difference(before, kept.model)
+    assert Change("effects.creep.slow.std", None, 0.002) in found
+    known = replace(
+        kept.model, tolerances={**before.tolerances, "effects.creep.slow": 0.0005}
+    )
+    paths = {change.path for change in difference(before, known)}
+    assert "effects.creep.slow.tolerance" in paths
+    assert "effects.creep.slow.std" not in paths
 
 
 def test_a_part_that_is_new_is_a_difference(versions: Versions) -> None:
