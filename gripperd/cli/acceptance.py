@@ -38,11 +38,7 @@ def accept(found: Diagnosis, model: ModelFile, config: Path | None) -> list[str]
     lines = [f"{word} as {version.name}: {version.model.source}"]
     if moved := ", ".join(map(_moved, made.refitted)):
         lines.append(f"with it these constants moved: {moved}")
-    if parent.is_configured:
-        lines.append(f"to go by it: gripperd model activate {version.number}")
-    else:
-        lines.append("to go by it, name that file as the model of a gripper")
-    return lines
+    return [*lines, parent.way_to(version)]
 
 
 def _moved(constant: Added) -> str:

@@ -214,12 +214,18 @@ class Versions:
         for number in (0, *self._numbers()):
             known |= {number: number, str(number): number, self._name(number): number}
         if which not in known:
-            hint = did_you_mean(
-                str(which), {self._name(each) for each in known.values()}
-            )
+            names = {self._name(each) for each in known.values()}
+            hint = self._elsewhere(which) or did_you_mean(str(which), names)
             message = f"{self._base.name} has no version {which!r}; {hint}"
             raise NotFound(message, key="version")
         return known[which]
+
+    def _elsewhere(self, which: int | str) -> str:
+        """Say that it is a version of another model; empty when it is none."""
+        for path in self._folder.parent.glob("*/[1-9]*.yaml"):
+            if f"{path.parent.name}-{path.stem}" == which:
+                return f"it is one of {path.parent.name}: {path}"
+        return ""
 
     def _numbers(self) -> Iterator[int]:
         for path in self._folder.glob("[1-9]*.yaml"):

@@ -32,7 +32,7 @@ def test_what_was_named_is_told_apart_from_constants_that_moved_with_it(
     creep: tuple[ModelFile, Diagnosis], config: Path, kept: Path
 ) -> None:
     model, found = creep
-    first, moved, *_ = accept(found, model, config)
+    first, moved, way = accept(found, model, config)
     assert first == f"kept as as-drawn-1: {kept}"
     version = load_model(kept)
     assert version.lineage is not None
@@ -43,6 +43,7 @@ def test_what_was_named_is_told_apart_from_constants_that_moved_with_it(
     pressure = version.regulator.pressure_high / 1e3
     said = f"valve.pressure_high_kPa to {pressure:.4g}"
     assert moved == f"with it these constants moved: {said}"
+    assert way == "no gripper can go by it: it has no gripper"
 
 
 def test_what_was_kept_is_not_kept_again(

@@ -101,6 +101,18 @@ def test_a_version_that_is_not_there_is_told(
     assert versions.active == 0
 
 
+def test_a_version_of_another_model_is_told_with_its_file(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    base = replace(versions.get(0).model, name="other")
+    other = add(Versions(tmp_path / "models/other", base), provenance)
+    with pytest.raises(NotFound) as refused:
+        versions.get("other-1")
+    assert str(refused.value) == (
+        f"reference has no version 'other-1'; it is one of other: {other.model.source}"
+    )
+
+
 def test_a_model_that_could_not_be_read_again_is_not_kept(
     versions: Versions, provenance: Provenance, tmp_path: Path
 ) -> None:
