@@ -15,6 +15,7 @@ from gripperd.config.effect import Effects, Library, keys_of_effect
 from gripperd.config.lineage import Lineage
 from gripperd.config.location import shipped
 from gripperd.config.number import factor_of
+from gripperd.config.sealed import check_seal
 from gripperd.config.section import (
     ENDS,
     Kilopascals,
@@ -164,9 +165,10 @@ def load_model(path: Path, effects: Mapping[str, type[Effect]] = EFFECTS) -> Mod
     Raises
     ------
     ConfigError
-        With everything that is wrong with it.
+        With everything that is wrong with it, or it is not as it was written.
     """
     document, sigmas = without_tolerances(read_document(path))
+    check_seal(path, needed=False)
     section = validated(_schema(document), document, Library(document, effects))
     _check_ends(document, sigmas, effects)
     in_muscle = tuple(filter(acts_in_muscle, section.effects))

@@ -16,10 +16,10 @@ from gripperd.config.complaint import did_you_mean, gathering
 from gripperd.config.durable import create_file
 from gripperd.config.lineage import Lineage, Provenance
 from gripperd.config.model_text import model_text
+from gripperd.config.sealed import check_seal, sealed
 from gripperd.errors import ConfigError, NotFound, Refused
 from gripperd.store.difference import difference
 from gripperd.store.pointer import Pointer, locked, read_pointer, write_pointer
-from gripperd.store.sealed import check_seal, sealed
 
 ACTIVE = "active"
 """Stands for whichever version is active."""

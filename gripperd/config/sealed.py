@@ -3,7 +3,7 @@
 import hashlib
 from pathlib import Path
 
-from gripperd.config import Complaint
+from gripperd.config.complaint import Complaint
 from gripperd.errors import ConfigError
 
 SEAL = "# sha256: "
@@ -15,8 +15,15 @@ def sealed(text: str) -> str:
     return f"{text}{SEAL}{hashlib.sha256(text.encode()).hexdigest()}\n"
 
 
-def check_seal(path: Path) -> None:
+def check_seal(path: Path, *, needed: bool = True) -> None:
     """Refuse a file that is not as it was written.
+
+    Parameters
+    ----------
+    path
+        The file.
+    needed
+        Whether to refuse one without a digest, too.
 
     Raises
     ------
@@ -29,6 +36,11 @@ def check_seal(path: Path) -> None:
         detail = f"cannot be read: {error.strerror}"
         raise ConfigError(Complaint(detail, source=str(path))) from error
     text, seal, said = content.rpartition(SEAL.encode())
+    is_line = not text or text.endswith(b"\n")
+    if not needed and not (seal and is_line):
+        return
     if not seal or said != hashlib.sha256(text).hexdigest().encode() + b"\n":
         detail = "is not as it was written: the sha256 in its last line does not match"
+        if not needed:
+            detail += "; without that line it is a file of your own"
         raise ConfigError(Complaint(detail, source=str(path)))
