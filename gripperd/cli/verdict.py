@@ -15,7 +15,6 @@ from gripperd.diagnose.statement import (
     contradicted,
     left_out,
     offered,
-    reasons,
     span,
     statement,
     summary,
@@ -27,6 +26,7 @@ from gripperd.diagnose.verdict.key import Key, keys_of, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
+from gripperd.report.untested import untested
 
 COLOURS = {
     Verdict.NAMED: "green",
@@ -53,6 +53,7 @@ def show(diagnosis: Diagnosis) -> None:
             (summary(diagnosis), "bold"),
         )
     )
+    unseen = untested(diagnosis)
     parts = [
         (_found_title(diagnosis), _effects(diagnosis)),
         ("where the recalibrated model is off", _where(diagnosis)),
@@ -70,7 +71,8 @@ def show(diagnosis: Diagnosis) -> None:
         ("left out", _lines(left_out(diagnosis.recording.rejected))),
         ("contradictions", _lines(_contradictions(diagnosis))),
         ("remarks", _lines(diagnosis.recording.remarks)),
-        ("not testable here", _lines(_untested(diagnosis))),
+        ("not testable with this recording", _lines(unseen.recording)),
+        ("not testable with this model", _lines(unseen.model)),
     ]
     for title, part in parts:
         if part is not None:
@@ -176,12 +178,6 @@ def _next(diagnosis: Diagnosis) -> list[str]:
 def _contradictions(diagnosis: Diagnosis) -> list[str]:
     found = diagnosis.recording.contradictions
     return [contradicted(one, len(one.runs + one.others)) for one in found]
-
-
-def _untested(diagnosis: Diagnosis) -> list[str]:
-    return [
-        f"{reason}: {', '.join(names)}" for reason, names in reasons(diagnosis).items()
-    ]
 
 
 def _lines(lines: "list[str] | tuple[str, ...]") -> Text | None:

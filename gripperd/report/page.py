@@ -10,13 +10,13 @@ from gripperd.diagnose.statement import (
     contradicted,
     left_out,
     offered,
-    reasons,
     statement,
     summary,
 )
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.key import public
 from gripperd.report import rows
+from gripperd.report.untested import untested
 from gripperd.reproduce.extra import not_installed
 
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
             }
             for offer in diagnosis.corrections
         ],
-        "untested": reasons(diagnosis),
+        "untested": untested(diagnosis),
         "seed": diagnosis.seed,
     }
 

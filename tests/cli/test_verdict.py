@@ -60,3 +60,15 @@ def test_what_was_left_out_is_a_line_for_each_reason(
         "force_N of a differs from that of b and c by 129 N at the same place, and"
         " repeats by 4.9 N"
     ) in text
+
+
+def test_what_the_model_lacks_is_told_apart_from_what_was_not_recorded(
+    creep: Diagnosis, capsys: pytest.CaptureFixture[str]
+) -> None:
+    of_recording, of_model = (
+        told(creep, capsys)
+        .partition("not testable with this recording\n")[2]
+        .split("not testable with this model\n")
+    )
+    assert "temperature_stiffness: temperature not measured\n" in of_recording
+    assert "nonlinear_elasticity: rubber_elasticity is not in the model" in of_model
