@@ -11,8 +11,8 @@ from rich.console import Console
 from gripperd import __version__
 from gripperd.errors import ConfigError, GripperdError, InputError
 
-FAILED, WRONG_USE, UNUSABLE_CONFIGURATION = 1, 2, 78
-"""Exit statuses; 78 is EX_CONFIG of sysexits.h."""
+FAILED, WRONG_USE, UNUSABLE_CONFIGURATION, INTERRUPTED = 1, 2, 78, 130
+"""Exit statuses; 78 is EX_CONFIG of sysexits.h, 130 is 128 + SIGINT as of a shell."""
 
 MODULES = (
     "daemon",

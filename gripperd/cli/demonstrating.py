@@ -10,7 +10,8 @@ from rich.console import Console
 
 from gripperd import __version__
 from gripperd.cli.app import app
-from gripperd.cli.waiting import progress
+from gripperd.cli.waiting import interruptible, progress
+from gripperd.demo.files import FILES
 from gripperd.demo.rig import Hidden
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def demo_discrepancy(
     seed: Annotated[int, typer.Option(min=0, help="Of every random draw.")] = 11,
 ) -> None:
     """Hide an effect in a rig, find it, add it, and show that the gap shrinks."""
-    with progress() as tell:
+    with interruptible(lambda: _left(out)), progress() as tell:
         tell("running the rig", 0.0)
         from gripperd.demo.story import demonstrate
 
@@ -39,6 +40,11 @@ def demo_discrepancy(
         console.print(f"[bold]{word:<8}[/bold]", end=" ")
         console.print(sentence, markup=False)
     console.print(f"\n{_again(out)}\nreport: {story.report.resolve().as_uri()}")
+
+
+def _left(out: Path) -> str:
+    there = [name for name in FILES if (out / name).exists()]
+    return f"{out} holds {', '.join(there)}" if there else "wrote nothing"
 
 
 def _told(story: "Story") -> Iterator[tuple[str, str]]:

@@ -10,7 +10,7 @@ import typer
 from gripperd import __version__
 from gripperd.cli.app import ConfigFile, app
 from gripperd.cli.outputs import check_outputs, write
-from gripperd.cli.waiting import progress
+from gripperd.cli.waiting import interruptible, progress
 from gripperd.errors import ConfigError, InputError
 
 if TYPE_CHECKING:
@@ -46,25 +46,29 @@ def diagnose(  # noqa: PLR0913  (its options)
     ] = None,
 ) -> None:
     """Find where a model is wrong, which effect it lacks, and how much that closes."""
-    asked = _asked(model, config, gripper)
-    _check_files(recording, asked, as_json, report)
-    found = _found(recording, asked, seed)
-    if as_json is not None:
-        _write_json(found, asked, as_json)
     # JSON on stdout stands alone there.
     told = as_json != STDOUT
-    if told:
-        from gripperd.cli.verdict import show
-
-        show(found)
-    if report is not None:
-        _write_report(found, asked, report, told=told)
-    if add:
-        from gripperd.cli.acceptance import accept
-
-        lines = accept(found, asked, config)
+    written: list[str] = []
+    with interruptible(lambda: f"wrote {', '.join(written) or 'nothing'}"):
+        asked = _asked(model, config, gripper)
+        _check_files(recording, asked, as_json, report)
+        found = _found(recording, asked, seed)
+        if as_json is not None:
+            _write_json(found, asked, as_json)
+            written.append(as_json)
         if told:
-            typer.echo("\n".join(lines))
+            from gripperd.cli.verdict import show
+
+            show(found)
+        if report is not None:
+            _write_report(found, asked, report, told=told)
+            written.append(str(report))
+        if add:
+            from gripperd.cli.acceptance import accept
+
+            lines = accept(found, asked, config)
+            if told:
+                typer.echo("\n".join(lines))
 
 
 def _asked(model: Path | None, config: Path | None, gripper: str | None) -> "ModelFile":

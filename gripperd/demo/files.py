@@ -41,7 +41,10 @@ def write_rig(folder: Path, hidden: Hidden, seed: int, step: float = STEP) -> No
         It cannot be written.
     """
     _check_folder(folder)
-    # First, so that what an interruption leaves is known for a demonstration.
+    # No report of an earlier demonstration stands beside the recording of this one.
+    for name in FILES:
+        (folder / name).unlink(missing_ok=True)
+    # Before the recording, so that what an interruption leaves is known again.
     for name, text in _same_always().items():
         (folder / name).write_bytes(text)
     draws = np.random.default_rng(seed)
