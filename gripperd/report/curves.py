@@ -6,7 +6,7 @@ from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
 from gripperd.diagnose.readings.recording import Kind
 from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.model.track import Array
-from gripperd.report.trace import State, Trace, elided
+from gripperd.report.trace import State, Trace, broken, elided, stretches
 from gripperd.report.where import COLOURS
 from gripperd.reproduce.drawing import BLUE, INK, MUTED, VERMILION, canvas
 from gripperd.reproduce.picture import Picture
@@ -43,17 +43,19 @@ def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:
         upper, lower = grid[0, index], grid[1, index]
         label, x = _along(one)
         rows = np.flatnonzero(one.held_out)
-        rows = rows[:: max(1, rows.size // DOTS)]
+        stride = max(1, rows.size // DOTS)
+        dots = rows[::stride]
         upper.plot(
-            x[rows], one.measured[rows], ".", color=INK, ms=3, alpha=0.55,
+            x[dots], one.measured[dots], ".", color=INK, ms=3, alpha=0.55,
             label="measured",
         )  # fmt: skip
+        parts = [rows[part] for part in stretches(one.time[rows], stride)]
+        way = broken(x, parts)
         for state in one.expected:
             look = {"color": COLOURS[state], "ls": DASHES[state]}
-            upper.plot(
-                x[rows], one.expected[state][rows], lw=1.6, label=state.value, **look
-            )
-            lower.plot(x[rows], one.residual(state)[rows], lw=1.2, **look)
+            expected = broken(one.expected[state], parts)
+            upper.plot(way, expected, lw=1.6, label=state.value, **look)
+            lower.plot(way, broken(one.residual(state), parts), lw=1.2, **look)
         lower.axhline(0, color=INK, lw=0.8)
         upper.set_title(elided(one.run, TITLE))
         lower.set_xlabel(label)
@@ -64,7 +66,8 @@ def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:
     caption = (
         "None of these samples was used to choose or to fit anything, but for the side"
         " to which dry friction points where a muscle is held. Above what was measured"
-        " and predicted, below the difference."
+        " and predicted, below the difference. Lines are broken where samples are"
+        " missing or passed over."
     )
     alt = f"{len(shown)} sweeps with the measurement and three predictions each."
     return Picture("held_out", "Sweeps that took no part", caption, alt, drawing)

@@ -1,6 +1,6 @@
 """What was measured in one sweep, and what three models expect of it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -16,6 +16,8 @@ from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
+GAP = 3.5
+"""Longest step inside a line, in those of the sampling: three samples are missing."""
 REGRESSORS = ("current", "pressure", "contraction", "temperature")
 
 
@@ -103,6 +105,21 @@ def _trace(
         direction=course.direction[good],
         held_out=kept[block.course][good],
     )
+
+
+def stretches(time: Array, stride: int = 1) -> list[NDArray[np.intp]]:
+    """Every so many rows of each stretch of time in which no sample is missing."""
+    rows = np.arange(time.size)
+    if rows.size < 2:
+        return [rows]
+    steps = np.diff(time)
+    breaks = np.flatnonzero(steps > GAP * np.median(steps)) + 1
+    return [part[::stride] for part in np.split(rows, breaks)]
+
+
+def broken(values: Array, parts: Sequence[NDArray[np.intp]]) -> Array:
+    """Values of some stretches as one line, with NaN where it is broken."""
+    return np.concatenate([one for rows in parts for one in (values[rows], [np.nan])])
 
 
 def elided(name: str, most: int) -> str:

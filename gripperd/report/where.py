@@ -12,7 +12,16 @@ from matplotlib.lines import Line2D
 
 from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
 from gripperd.model.track import Array
-from gripperd.report.trace import REGRESSORS, State, Trace, elided, joined, level
+from gripperd.report.trace import (
+    REGRESSORS,
+    State,
+    Trace,
+    broken,
+    elided,
+    joined,
+    level,
+    stretches,
+)
 from gripperd.reproduce.drawing import BLUE, INK, MUTED, VERMILION, canvas
 from gripperd.reproduce.picture import Picture
 
@@ -86,10 +95,11 @@ def over_time(found: tuple[Trace, ...], column: Column, floor: float) -> Picture
     for one, start, end in zip(found, starts[:-1], starts[1:], strict=True):
         if one.held_out.any():
             axes.axvspan(start, end, color=MUTED, alpha=0.12, lw=0)
+        parts = stretches(one.time, stride)
         for state in _shown(found):
             axes.plot(
-                start + one.time[::stride],
-                one.residual(state)[::stride],
+                start + broken(one.time, parts),
+                broken(one.residual(state), parts),
                 color=COLOURS[state],
                 lw=0.9,
             )
@@ -105,7 +115,8 @@ def over_time(found: tuple[Trace, ...], column: Column, floor: float) -> Picture
     )
     caption = (
         "Measured minus predicted, sweep after sweep. Grey sweeps took no part in the"
-        " fit. The dotted lines are two standard deviations of the measurement itself."
+        " fit; lines are broken where samples are missing or passed over. The dotted"
+        " lines are two standard deviations of the measurement itself."
         " Each sweep begins at the time below its left edge; where there is room, its"
         " name stands above."
     )

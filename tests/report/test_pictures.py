@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
 
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
@@ -9,9 +10,10 @@ from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-from gripperd.report.trace import State, Trace, elided, traces
+from gripperd.report.curves import held_out
+from gripperd.report.trace import State, Trace, elided, stretches, traces
 from gripperd.report.where import over_time, spaced
-from tests.demonstration import example
+from tests.demonstration import STEP, example
 from tests.diagnose.small import MODEL, Moment, recording
 
 
@@ -48,6 +50,43 @@ def test_a_file_may_begin_at_any_time(
     split = replace(creep.split, train=replace(train, courses=late))
     told = traces(replace(creep, split=split), Signal.FORCE)
     assert [one.start for one in told] == pytest.approx([one.start for one in found])
+
+
+def drawn(axes: Axes) -> list[tuple[Array, Array]]:
+    """Lines that follow samples, not those across the picture."""
+    lines = [np.asarray(line.get_xydata(), float) for line in axes.get_lines()]
+    return [(line[:, 0], line[:, 1]) for line in lines if len(line) > 2]
+
+
+def test_no_line_is_drawn_across_missing_samples(found: tuple[Trace, ...]) -> None:
+    (axes,) = over_time(found, BY_QUANTITY["force"], 3.0).drawing.axes
+    assert max(float(np.max(np.diff(one.time))) for one in found) > 3.5 * STEP
+    lines = drawn(axes)
+    assert len(lines) == 2 * len(found)
+    for (x, y), one in zip(lines[::2], found, strict=True):
+        assert np.nanmax(np.diff(x)) < 1.5 * STEP
+        left = one.residual(State.RECALIBRATED)
+        np.testing.assert_allclose(y[np.isfinite(y)], left)
+
+
+def test_before_and_after_are_broken_alike(found: tuple[Trace, ...]) -> None:
+    step = next(one for one in found if one.run == "step_0")
+    whole = replace(step, held_out=np.ones(step.time.shape, bool))
+    picture = held_out((whole,), BY_QUANTITY["force"])
+    assert picture is not None
+    upper, lower = picture.drawing.axes
+    measured, *predicted = drawn(upper)
+    assert len(predicted) == len(drawn(lower)) == 3
+    for x, y in [*predicted, *drawn(lower)]:
+        assert np.nanmax(np.diff(x)) < 1.5 * STEP
+        np.testing.assert_allclose(x[np.isfinite(y)], measured[0])
+
+
+def test_a_line_of_few_of_many_samples_is_broken_at_the_same_places() -> None:
+    time = np.array([0.0, 1, 2, 3, 4, 9, 10, 11, 12, 16.5])
+    parts = [part.tolist() for part in stretches(time, 3)]
+    assert parts == [[0, 3], [5, 8], [9]]
+    assert [part.tolist() for part in stretches(time[:1])] == [[0]]
 
 
 def test_no_two_marks_are_nearer_than_they_may_be() -> None:
