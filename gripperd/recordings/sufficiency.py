@@ -16,7 +16,8 @@ LINKS = (
     ("pressure", "length", "force"),
     ("contraction", "opening"),
     ("length", "opening"),
-    ("pressure", "opening", "grip"),
+    ("force", "contraction", "grip"),
+    ("force", "length", "grip"),
 )
 """What must be measured together to compare one step of the chain."""
 FEWEST = 20

@@ -27,7 +27,8 @@ def _columns(*names: str, rows: int = 20) -> dict[str, list[object]]:
         ("pressure_kPa", "length_mm", "force_N"),
         ("contraction", "opening_mm"),
         ("length_mm", "opening_mm"),
-        ("pressure_kPa", "opening_mm", "grip_N"),
+        ("force_N", "contraction", "grip_N"),
+        ("force_N", "length_mm", "grip_N"),
     ],
 )
 def test_two_neighbours_of_the_chain_are_enough(
@@ -47,6 +48,7 @@ def test_two_neighbours_of_the_chain_are_enough(
         ("current_mA", "force_N", "contraction"),
         ("pressure_kPa", "grip_N"),
         ("current_mA", "opening_mm", "grip_N"),
+        ("pressure_kPa", "opening_mm", "grip_N"),
     ],
 )
 def test_points_that_are_no_neighbours_are_refused(

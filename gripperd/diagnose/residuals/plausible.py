@@ -36,8 +36,8 @@ def check_plausible(problem: Problem, name: str) -> None:
         message = (
             f"{name}: no stage of the model can be compared with what was measured;"
             " a run needs current and pressure, or pressure, contraction and force,"
-            " or, with a gripper in the model, opening or grip, in 4 samples or more"
-            " that lie beside no step"
+            " or, with a gripper in the model, contraction and opening, or force,"
+            " contraction and grip, in 4 samples or more that lie beside no step"
         )
         raise InputError(message)
     expected = problem.expected(problem.explanation(_nominal(problem)))
