@@ -43,7 +43,8 @@ def _told(signal: str, views: list[Structure]) -> list[str]:
         + (", as one wave" if one.share > LINE else "")
         for one in clear
     ]
-    plain = {one.along for one in clear}
+    # A wave in time is a dependence on it, whatever its slow part is.
+    plain = {one.along.partition(",")[0] for one in clear}
     words += [
         f"{signal}: not on {_spelt(one)}"
         for one in views

@@ -46,6 +46,13 @@ def test_a_wave_is_told_only_when_there_is_one(
     assert not any("Hz" in word for word in _words(blank, unnamed, _view(wave, 0.4)))
 
 
+def test_what_swings_in_time_is_not_said_to_be_independent_of_it(
+    blank: Problem, unnamed: Contest
+) -> None:
+    words = _words(blank, unnamed, _view("time, at 0.8 Hz", 1e-30), _view("time", 0.4))
+    assert "force: not on time" not in words
+
+
 def test_what_is_neither_clear_nor_absent_is_not_told(
     blank: Problem, unnamed: Contest
 ) -> None:
