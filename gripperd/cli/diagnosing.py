@@ -51,11 +51,18 @@ def diagnose(  # noqa: PLR0913  (its options)
     written: list[str] = []
     with interruptible(lambda: f"wrote {', '.join(written) or 'nothing'}"):
         asked = _asked(model, config, gripper)
-        _check_files(recording, asked, as_json, report)
+        read = {
+            "the recording": recording,
+            "the side file of the recording": recording.with_suffix(".yaml"),
+            "the model": Path(asked.source),
+        }
+        if config is not None:
+            read["the configuration"] = config
+        check_outputs(_outputs(as_json, report), read)
         found = _found(recording, asked, seed)
         if as_json is not None:
             _write_json(found, asked, as_json)
-            written.append(as_json)
+            written.append(as_json if told else "stdout")
         if told:
             from gripperd.cli.verdict import show
 
@@ -84,20 +91,14 @@ def _asked(model: Path | None, config: Path | None, gripper: str | None) -> "Mod
         raise InputError(str(broken), key="--model") from None
 
 
-def _check_files(
-    recording: Path, model: "ModelFile", as_json: str | None, report: Path | None
-) -> None:
+def _outputs(as_json: str | None, report: Path | None) -> dict[str, Path]:
+    """Files to write, by their options."""
     written: dict[str, Path] = {}
     if as_json is not None and as_json != STDOUT:
         written["--json"] = Path(as_json)
     if report is not None:
         written["--report"] = report
-    read = {
-        "the recording": recording,
-        "the side file of the recording": recording.with_suffix(".yaml"),
-        "the model": Path(model.source),
-    }
-    check_outputs(written, read)
+    return written
 
 
 def _found(recording: Path, model: "ModelFile", seed: int) -> "Diagnosis":

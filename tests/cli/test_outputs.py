@@ -21,6 +21,7 @@ MODEL = (
     [
         (["--report", "rec.csv"], "is the recording; name another file for --report"),
         (["--json", "model.yaml"], "is the model; name another file for --json"),
+        (["--json", "set.yaml", "--config", "set.yaml"], "is the configuration; name"),
         (["--json", "rec.yaml"], "is the side file of the recording; name another"),
         (["--json", "x", "--report", "x"], "is the file for --json; name another file"),
         (["--report", "/proc/x.html"], "/proc/x.html: cannot be written"),
