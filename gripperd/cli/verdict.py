@@ -24,6 +24,7 @@ from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.diagnose.verdict.key import Key, keys_of, public
 from gripperd.diagnose.verdict.named import Named
+from gripperd.diagnose.verdict.recalibrated import recalibrated
 from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 from gripperd.report.untested import untested
@@ -37,6 +38,8 @@ COLOURS = {
 }
 REGION = {"time": "", "pressure": "", "contraction": "contraction ", "temperature": ""}
 """What is told of a region, and the word before it where the unit does not say."""
+FAR = 0.7
+"""Tolerances by which a constant has moved far enough to be told. [-]"""
 PLACES = 6
 """Places told on a terminal; all are in the document."""
 
@@ -65,6 +68,7 @@ def show(diagnosis: Diagnosis) -> None:
             "the same where no other sweep went: extrapolation",
             _extrapolation(diagnosis),
         ),
+        ("constants that moved by most of their tolerance", _lines(_moved(diagnosis))),
         ("what is left, in words", _lines(diagnosis.signature)),
         ("what could be taken off", _lines(list(map(offered, diagnosis.corrections)))),
         ("what to run next", _lines(_next(diagnosis))),
@@ -173,6 +177,16 @@ def _next(diagnosis: Diagnosis) -> list[str]:
         return []
     title = f"{proposal.title}: " if proposal.title else ""
     return [f"{title}{proposal.why}"]
+
+
+def _moved(diagnosis: Diagnosis) -> list[str]:
+    told = recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+    far = [one for one in told if abs(one.moved) > FAR]
+    return [
+        f"{one.key.title} {one.key.shown(one.model * one.key.factor)} ->"
+        f" {one.key.shown(one.fit * one.key.factor)}, {one.moved:+.1f} tolerances"
+        for one in sorted(far, key=lambda one: -abs(one.moved))
+    ]
 
 
 def _contradictions(diagnosis: Diagnosis) -> list[str]:

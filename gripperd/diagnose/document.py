@@ -7,6 +7,7 @@ import numpy as np
 
 from gripperd.diagnose.correction.document import correction_document
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
 from gripperd.diagnose.readings.recording import Contradiction
 from gripperd.diagnose.statement import statement, summary
@@ -16,6 +17,7 @@ from gripperd.diagnose.verdict.gap import Gap
 from gripperd.diagnose.verdict.key import keys_of, number, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.next_experiment import Proposal
+from gripperd.diagnose.verdict.recalibrated import Recalibrated, recalibrated
 from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
@@ -69,6 +71,10 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
             "correction": "gp" if diagnosis.corrections else "none",
             "corrections": [correction_document(one) for one in diagnosis.corrections],
         },
+        "constants": [
+            _constant(one)
+            for one in recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+        ],
         "untested": dict(diagnosis.untested),
         "contradictions": [_contradiction(one) for one in recording.contradictions],
         "remarks": list(recording.remarks),
@@ -76,6 +82,16 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
         "model": model,
         "seed": diagnosis.seed,
         "program": program,
+    }
+
+
+def _constant(one: Recalibrated) -> Document:
+    return {
+        "name": public(f"{WRONG}{one.constant.path}").removeprefix(WRONG),
+        "model": number(one.model),
+        "tolerance": number(one.tolerance),
+        "fit": number(one.fit),
+        "std": number(one.std),
     }
 
 

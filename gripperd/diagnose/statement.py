@@ -14,11 +14,14 @@ from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed
 from gripperd.diagnose.verdict.key import key_of_constant, keys_of, plain, public
 from gripperd.diagnose.verdict.named import Named
+from gripperd.diagnose.verdict.recalibrated import recalibrated
 from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
 SHOWN = 4
 """Sweeps named in a sentence."""
+LITTLE = 0.8
+"""Share of a gap that better constants leave, above which they need no mention. [-]"""
 PLACES = {"time": 0, "pressure": 0, "contraction": 3}
 """Decimal places of a region, in the unit of the file."""
 
@@ -44,7 +47,8 @@ def summary(diagnosis: Diagnosis) -> str:
                 f" it{_still_open(diagnosis)}."
             )
         case Verdict.NONE:
-            return f"Nothing is missing: what is left is noise{gap}."
+            within = _within(diagnosis)
+            return f"Nothing is missing: {within}what is left is noise{gap}."
         case Verdict.UNUSABLE:
             said = "; ".join(map(contradicted, diagnosis.recording.contradictions))
             return (
@@ -142,6 +146,20 @@ def _told(entries: Sequence[Named]) -> str:
 def _tight(diagnosis: Diagnosis) -> str:
     tight = diagnosis.explained.looser
     return ", and tolerances tighter than its parts keep" if tight else ""
+
+
+def _within(diagnosis: Diagnosis) -> str:
+    """Say that constants had to move for it, and which went furthest."""
+    gap = diagnosis.gaps.get(diagnosis.main) if diagnosis.main else None
+    if gap is None or gap.recalibrated > LITTLE * gap.before:
+        return ""
+    told = recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+    first, *_ = sorted(told, key=lambda one: -abs(one.moved))
+    return (
+        f"once constants move ({first.key.title}"
+        f" {first.key.shown(first.fit * first.key.factor)} instead of"
+        f" {first.key.shown(first.model * first.key.factor)} first of all), "
+    )
 
 
 def _closed(diagnosis: Diagnosis) -> str:

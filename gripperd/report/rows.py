@@ -14,7 +14,8 @@ from gripperd.diagnose.search.rivalry import EVEN
 from gripperd.diagnose.statement import span
 from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.gap import Gap
-from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, public
+from gripperd.diagnose.verdict.key import keys_of, public
+from gripperd.diagnose.verdict.recalibrated import recalibrated
 from gripperd.reproduce.chapters import Table
 
 RANKED = 12
@@ -162,26 +163,20 @@ def _numbers(diagnosis: Diagnosis) -> Iterator[tuple[str, ...]]:
 
 def constants(diagnosis: Diagnosis) -> Table:
     """Constants of the model: as they came, and as they fit."""
-    point, fit = diagnosis.explained, diagnosis.contest.best.fit
-    stds = np.sqrt(np.diag(fit.covariance)[: point.shifts.size]) * point.widths
-    rows = []
-    for index, constant in enumerate(diagnosis.found.problem.constants):
-        if (key := CONSTANTS.get(constant.path)) is None:
-            continue
-        shift, scale = float(point.shifts[index]), constant.sigma / key.factor
-        rows.append(
-            (
-                key.title,
-                f"{constant.nominal / key.factor:.5g}",
-                f"{scale:.2g}" + ("" if constant.stated else " (assumed)"),
-                f"{constant.nominal / key.factor + shift * scale:.5g}",
-                f"{float(stds[index]) * scale:.2g}",
-                f"{shift:+.1f} sigma",
-                (key.unit or "-").replace("_per_", "/"),
-            )
+    rows = tuple(
+        (
+            one.key.title,
+            f"{one.model:.5g}",
+            f"{one.tolerance:.2g}" + ("" if one.constant.stated else " (assumed)"),
+            f"{one.fit:.5g}",
+            f"{one.std:.2g}",
+            f"{one.moved:+.1f} sigma",
+            (one.key.unit or "-").replace("_per_", "/"),
         )
+        for one in recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+    )
     columns = ("constant", "model", "tolerance", "fit", "± 1 sigma", "moved by", "unit")
-    return Table("Constants of the model", columns, tuple(rows))
+    return Table("Constants of the model", columns, rows)
 
 
 def correction(offer: Offer) -> Table:

@@ -25,7 +25,6 @@ from gripperd.diagnose.verdict.gap import gaps
 from gripperd.diagnose.verdict.key import (
     CONSTANTS,
     Key,
-    key_of_constant,
     keys_of,
     public,
     rounded,
@@ -167,15 +166,15 @@ def _shrinks(gap: Judged) -> bool:
 
 def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
     """One sigma of what was fitted, where one sigma to either side is possible."""
-    for constant, std in fitted_constants(diagnosis):
-        yield constant.path, key_of_constant(constant.path).tidy(std)
+    for one in fitted_constants(diagnosis):
+        yield one.constant.path, one.key.tidy(one.std * one.key.factor)
     for entry in diagnosis.named:
         known = parameters(entry.effect) if entry.effect else {}
         keys = keys_of(entry)
         for name in known.keys() & entry.parameters.keys():
-            one = entry.parameters[name]
-            if one.std > 0 and _is_inside(one, known[name].low, known[name].high):
-                yield f"effects.{entry.name}.{name}", keys[name].tidy(one.std)
+            size = entry.parameters[name]
+            if size.std > 0 and _is_inside(size, known[name].low, known[name].high):
+                yield f"effects.{entry.name}.{name}", keys[name].tidy(size.std)
 
 
 def _is_inside(one: Estimate, low: float, high: float) -> bool:

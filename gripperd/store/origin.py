@@ -11,6 +11,7 @@ from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.diagnose.residuals.constants import Constant
 from gripperd.diagnose.verdict.key import key_of_constant, keys_of, public, rounded
 from gripperd.diagnose.verdict.named import Named
+from gripperd.diagnose.verdict.recalibrated import Recalibrated, recalibrated
 
 OWNERS = frozenset({"muscle", "valve", "gripper"})
 """Parts of a model file that have constants."""
@@ -63,30 +64,21 @@ def _added(entry: Named) -> Added:
 
 def _recalibrated(diagnosis: Diagnosis) -> Iterator[Added]:
     """Constants that moved by more than their tolerance without being called wrong."""
-    point = diagnosis.explained
-    constants = diagnosis.found.problem.constants
-    for constant, std in fitted_constants(diagnosis):
-        index = constants.index(constant)
-        shift = float(point.shifts[index])
-        if index in point.freed or abs(shift) <= 1:
-            continue
-        key = key_of_constant(constant.path)
-        value = (constant.nominal + shift * constant.sigma) / key.factor
-        yield Added(
-            name=public(f"{WRONG}{constant.path}"),
-            parameters={key.text: rounded(value)},
-            std={key.text: rounded(std / key.factor)},
-        )
+    freed = diagnosis.explained.freed
+    wrong = {diagnosis.found.problem.constants[index].path for index in freed}
+    for one in fitted_constants(diagnosis):
+        if one.constant.path not in wrong and abs(one.moved) > 1:
+            yield Added(
+                name=public(f"{WRONG}{one.constant.path}"),
+                parameters={one.key.text: rounded(one.fit)},
+                std={one.key.text: rounded(one.std)},
+            )
 
 
-def fitted_constants(diagnosis: Diagnosis) -> Iterator[tuple[Constant, float]]:
-    """Constants with a place in a model file, and their standard deviations. [SI]."""
-    point, fit = diagnosis.explained, diagnosis.contest.best.fit
-    stds = np.sqrt(np.diag(fit.covariance)[: point.shifts.size]) * point.widths
-    constants = diagnosis.found.problem.constants
-    for constant, std in zip(constants, stds.tolist(), strict=True):
-        if is_owned(constant):
-            yield constant, std * constant.sigma
+def fitted_constants(diagnosis: Diagnosis) -> Iterator[Recalibrated]:
+    """Constants with a place in a model file, as they fit."""
+    listed = recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+    return (one for one in listed if is_owned(one.constant))
 
 
 def _covariance(diagnosis: Diagnosis) -> Covariance | None:

@@ -52,6 +52,14 @@ def test_the_summary_has_effect_place_and_gap(done: Done) -> None:
         assert said in done.output
 
 
+def test_constants_that_moved_are_told(done: Done) -> None:
+    told = json.loads(Path(done.at("found.json")).read_text())["constants"]
+    moved = [(one["fit"] - one["model"]) / one["tolerance"] for one in told]
+    far = [f"{one:+.1f} tolerances" for one in moved if abs(one) > 0.71]
+    assert far
+    assert all(said in done.output for said in far)
+
+
 def test_in_a_pipe_there_is_no_progress_and_no_colour(done: Done) -> None:
     assert done.error == ""
     assert "\x1b" not in done.output
