@@ -173,8 +173,10 @@ def _closed(diagnosis: Diagnosis) -> str:
     )
     # What better constants close is no merit of an effect.
     beside = f" ({better} with better constants alone)" if better != after else ""
+    alone = len(diagnosis.recording.runs) == 1
+    unseen = "the rest of its only run" if alone else "data it never saw"
     return (
-        f"; on data it never saw the {diagnosis.main.value} is off by"
+        f"; on {unseen} the {diagnosis.main.value} is off by"
         f" {after} instead of {before}{beside}, and repeats by {floor}"
     )
 

@@ -141,6 +141,15 @@ def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:
     )
 
 
+def test_of_one_run_the_rest_was_held_out_and_no_other_data(
+    creep: Diagnosis,
+) -> None:
+    one = replace(creep.recording, runs=creep.recording.runs[:1])
+    assert "; on the rest of its only run the force is off by" in summary(
+        replace(creep, recording=one)
+    )
+
+
 def test_a_contradiction_says_what_contradicts_what(creep: Diagnosis) -> None:
     names = tuple("abcdef")
     found = Contradiction(names, ("x",), "force_N", -310.4, "N", 3.21)
