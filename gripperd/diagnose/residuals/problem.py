@@ -36,7 +36,7 @@ class Problem:
     noises: Mapping[Signal, Noise]
     slack: float = -np.inf
     """Force below which the muscle may be slack and tells nothing. [N]"""
-    temperatures: Mapping[Signal, float] = field(default_factory=dict)
+    inflations: Mapping[Signal, float] = field(default_factory=dict)
     """How much louder noises are taken than they were measured, in squares. [-]"""
     kept: tuple[Mask, ...] = ()
     """Samples of each course that take part; all when empty."""
@@ -86,14 +86,14 @@ class Problem:
         """Those explained anywhere."""
         return tuple(dict.fromkeys(block.signal for block in self.blocks))
 
-    def temperature(self, signals: Iterable[Signal]) -> float:
+    def inflation(self, signals: Iterable[Signal]) -> float:
         """Give the highest of some signals; 1 where the noise is reached. [-]."""
-        return max((self.temperatures.get(one, 1.0) for one in signals), default=1.0)
+        return max((self.inflations.get(one, 1.0) for one in signals), default=1.0)
 
     @property
-    def is_hot(self) -> bool:
+    def is_inflated(self) -> bool:
         """Whether misfit, not noise, is what explanations are weighed against."""
-        return self.temperature(self.signals) > 1
+        return self.inflation(self.signals) > 1
 
     def reach(self, point: Point) -> Array:
         """How far each constant may be off, in widths of its prior."""

@@ -7,9 +7,9 @@ from typing import NamedTuple
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.crossing import bears_out
 from gripperd.diagnose.fit.design import Member, design
+from gripperd.diagnose.fit.inflation import deflated
 from gripperd.diagnose.fit.polish import Polished, polished
 from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
-from gripperd.diagnose.fit.temperature import cooled
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -84,7 +84,7 @@ def _with(
     noises: Mapping[Signal, Noise],
 ) -> tuple[Found, Contest]:
     here = best.best
-    if found.problem.temperature([kind.signal]) <= 1 or not here.candidates:
+    if found.problem.inflation([kind.signal]) <= 1 or not here.candidates:
         return found, best
     if any(_is_cause(kind, one) for one in here.candidates):
         return found, best
@@ -92,9 +92,9 @@ def _with(
     # Tolerances that are too tight are one finding, of which nothing can be dropped.
     if point.looser:
         return found, best
-    cool = cooled(found.problem, here.fit)
-    problem = kind.within(cool, point, noises[kind.signal])
-    if problem is cool:
+    lower = deflated(found.problem, here.fit)
+    problem = kind.within(lower, point, noises[kind.signal])
+    if problem is lower:
         return found, best
     here = Rival(here.candidates, polished(problem, point))
     tried = [here]

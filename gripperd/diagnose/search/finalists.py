@@ -63,7 +63,7 @@ def heard(
     on its own has none.
     """
     found = list(ranked[:most])
-    if problem.is_hot:
+    if problem.is_inflated:
         met = {_signals(problem, members) for members in found}
         for members in ranked[most:]:
             signals = _signals(problem, members)

@@ -38,7 +38,7 @@ def with_overstepped(
         What could be missing.
     """
     problem, here = found.problem, best.best
-    if not (problem.is_hot and here.candidates) or here.fit.point.freed:
+    if not (problem.is_inflated and here.candidates) or here.fit.point.freed:
         return best
     edge = at_edge(problem, here)
     freed = larger(problem, here, [one for one in listed if one.name in edge])

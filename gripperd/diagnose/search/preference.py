@@ -39,7 +39,7 @@ def preferred(problem: Problem, rivals: Sequence[Rival]) -> Rival:
         At least one.
     """
     best = max(rivals, key=lambda rival: rival.evidence)
-    if not problem.is_hot or len({one.course for one in problem.blocks}) < FEW:
+    if not problem.is_inflated or len({one.course for one in problem.blocks}) < FEW:
         return best
     alike = [one for one in rivals if one.fit.cost <= ALIKE * best.fit.cost]
     sound = [one for one in alike if not strained(problem, one)] or [best]

@@ -72,8 +72,8 @@ def worth(
         return size_of(problem, larger, larger.names, problem.signals) >= SEEN
     new = [one for one in larger.candidates if one.name not in best.names]
     signals = {signal for one in new for signal in acts_on(problem, one)}
-    hot = problem.temperature(signals) > 1
-    if not hot and gain <= LEAST_MORE:
+    inflated = problem.inflation(signals) > 1
+    if not inflated and gain <= LEAST_MORE:
         return False
     if _change(problem, best.fit.point, larger.fit.point) < SEEN:
         return False
@@ -86,7 +86,7 @@ def worth(
     for group in (old, new):
         price *= EXACT if all(is_exact(one) for one in group) else 1.0
     paid = further > price * closed
-    if not hot:
+    if not inflated:
         return _stands_alone(problem, best, larger, paid=paid)
     # Far above the noise it counts what an addition takes of what was left.
     takes_much = further > MUCH * sum(best.fit.misfits[s] for s in signals)

@@ -73,7 +73,7 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
         if not ahead:
             break
         champion = preferred(found.problem, ahead)
-        if found.problem.is_hot and not _sounder(found.problem, best, champion):
+        if found.problem.is_inflated and not _sounder(found.problem, best, champion):
             break
         best = champion
         challenged = _all_challenged(found.problem, best, listed)

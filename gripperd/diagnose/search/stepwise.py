@@ -16,10 +16,10 @@ import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.design import Member, design
+from gripperd.diagnose.fit.inflation import birge_ratios, louder, plain, reached
 from gripperd.diagnose.fit.null import null_gains
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
-from gripperd.diagnose.fit.temperature import louder, plain, reached, temperatures_of
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -42,7 +42,7 @@ MISFIT = 2.0
 """Mean square of what the best explanation leaves, from which it is not noise. [-]"""
 HOPELESS = 150.0
 """The same of the null, from which no explanation can reach the noise. [-]"""
-COOLINGS = 3
+DEFLATIONS = 3
 NEXT = 2
 """Explanations that are fitted in full."""
 MOST = 4
@@ -68,15 +68,15 @@ def search(
     """
     start = Point(np.zeros(len(problem.constants)))
     null = polished(problem, start)
-    lost = [s for s, share in temperatures_of(null).items() if share > HOPELESS]
-    found = _cooled(plain(problem, lost), listed, rng, null.point)
-    hot = [s for s, share in found.problem.temperatures.items() if share > MISFIT]
-    if set(hot) - set(lost):
-        found = _cooled(plain(problem, [*lost, *hot]), listed, rng, null.point)
+    lost = [s for s, share in birge_ratios(null).items() if share > HOPELESS]
+    found = _deflated(plain(problem, lost), listed, rng, null.point)
+    inflated = [s for s, share in found.problem.inflations.items() if share > MISFIT]
+    if set(inflated) - set(lost):
+        found = _deflated(plain(problem, [*lost, *inflated]), listed, rng, null.point)
     return _grown(found, listed)
 
 
-def _cooled(
+def _deflated(
     problem: Problem,
     listed: Sequence[Candidate],
     rng: np.random.Generator,
@@ -84,15 +84,15 @@ def _cooled(
 ) -> Found:
     """Take the noise as loud as the best explanation leaves it, and no louder."""
     null = polished(problem, start)
-    warm = {s: max(1.0, share) for s, share in temperatures_of(null).items()}
-    found = _pass(louder(problem, warm), listed, rng, null.point)
-    for _ in range(COOLINGS):
-        cooler = reached(warm, (rival.fit for rival in found.rivals))
-        if all(cooler[s] > 0.8 * warm[s] for s in warm):
+    inflated = {s: max(1.0, share) for s, share in birge_ratios(null).items()}
+    found = _pass(louder(problem, inflated), listed, rng, null.point)
+    for _ in range(DEFLATIONS):
+        lower = reached(inflated, (rival.fit for rival in found.rivals))
+        if all(lower[s] > 0.8 * inflated[s] for s in inflated):
             break
-        warm = cooler
+        inflated = lower
         known = {rival.candidates: rival.fit.point for rival in found.rivals}
-        found = _pass(louder(problem, warm), listed, rng, null.point, known)
+        found = _pass(louder(problem, inflated), listed, rng, null.point, known)
     return found
 
 
@@ -111,8 +111,8 @@ def _pass(
     nulls = null_gains(around, around.members, rng)
     chance = float(np.quantile(nulls, 1 - FALSE_ALARMS))
     rivals = [null]
-    # What is hot is weighed even so: only a fit tells how loud the rest really is.
-    if problem.is_hot or any(
+    # What is inflated is weighed even so: only a fit tells how loud the rest really is.
+    if problem.is_inflated or any(
         gain > max(chance, _least(problem, [member.candidate]))
         for member, gain in singles.items()
     ):
@@ -123,7 +123,7 @@ def _pass(
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
     best = _best(problem, null, rivals, chance)
-    threshold = max(chance, 0.0 if problem.is_hot else LEAST_BESIDE)
+    threshold = max(chance, 0.0 if problem.is_inflated else LEAST_BESIDE)
     rivals.sort(key=lambda rival: -rival.evidence)
     return Found(
         problem, null, best, tuple(rivals), threshold, gains, around.faint, nulls
@@ -155,7 +155,7 @@ def _with_bore(
 ) -> list[Rival]:
     """Give it with another bore, if misfit counts and its tolerance holds that back."""
     held = BORE in at_edge(problem, rival) and BORE not in rival.names
-    if not (problem.is_hot and held):
+    if not (problem.is_inflated and held):
         return []
     return larger(problem, rival, [one for one in listed if one.name == BORE])
 
@@ -180,7 +180,7 @@ def _best(
 def _least(problem: Problem, candidates: Sequence[Candidate]) -> float:
     """Gain below which they are not believed, be it more than chance. [nat]."""
     # Noise as loud as the misfit holds the doubt about the model already.
-    if problem.is_hot:
+    if problem.is_inflated:
         return 0.0
     return LEAST_PLAIN if all(is_plain(one) for one in candidates) else LEAST
 

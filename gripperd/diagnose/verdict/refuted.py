@@ -48,7 +48,7 @@ def refuted(
     names = []
     for candidate, place in zip(best.best.candidates, best.places, strict=True):
         # Far above the noise one constant stands in for another.
-        if candidate.effect is None and found.problem.is_hot:
+        if candidate.effect is None and found.problem.is_inflated:
             continue
         without = with_own_sign(parts, place.without.fit.point)
         changed, gained = _compared(test, without, told)

@@ -40,7 +40,7 @@ def _ended(
     """The search on the steps, as far above the noise as it ends."""
     problem = stepped.problem(missed, *hidden)
     found = search(problem, listed, np.random.default_rng(0))
-    assert found.problem.is_hot
+    assert found.problem.is_inflated
     return found, contest(found, listed)
 
 
@@ -213,15 +213,15 @@ def test_a_drift_is_told_if_it_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_near_the_noise_the_search_has_heard_it() -> None:
     found, best = _ended(threshold(60.0), creeping(0.02))
-    cool = replace(found, problem=replace(found.problem, temperatures={}))
-    assert _told(cool, best) == (cool, best)
+    calm = replace(found, problem=replace(found.problem, inflations={}))
+    assert _told(calm, best) == (calm, best)
 
 
 def test_without_dwells_nothing_is_told() -> None:
     ramps = small.recording(restless(threshold(60.0)))
     problem = pinned(problem_of(ramps, small.MODEL, {}), *OPEN)
     found = search(problem, LEVELS, np.random.default_rng(0))
-    assert found.problem.temperature([Signal.FORCE]) > 1
+    assert found.problem.inflation([Signal.FORCE]) > 1
     best = contest(found, LEVELS)
     assert with_aftermath(found, best, (*LEVELS, *LATE), problem.noises) == (
         found,

@@ -155,8 +155,8 @@ def test_a_valve_as_quick_as_any_is_not_told() -> None:
 
 def test_near_the_noise_answers_are_not_asked() -> None:
     found, best = _ended(_recording(0.1, 0.02))
-    cool = replace(found, problem=replace(found.problem, temperatures={}))
-    assert _told(cool, best) == (cool, best)
+    calm = replace(found, problem=replace(found.problem, inflations={}))
+    assert _told(calm, best) == (calm, best)
 
 
 def test_an_answer_lasts_from_the_row_before_a_command_for_a_second() -> None:

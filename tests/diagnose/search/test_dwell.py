@@ -20,7 +20,7 @@ LEVEL = 20.0
 """Of the misfit. [N]"""
 
 
-def _hot(hidden: Callable[[Moment], Array] = nothing) -> Problem:
+def _inflated(hidden: Callable[[Moment], Array] = nothing) -> Problem:
     plain = stepped.problem(hidden)
     return replace(plain, noises={**plain.noises, Signal.FORCE: Noise(LEVEL, 0.0)})
 
@@ -40,7 +40,7 @@ def _with(problem: Problem, change: Callable[[Array], Array]) -> Problem:
 
 
 def test_a_dwell_lasts_from_a_second_after_a_command_to_the_next() -> None:
-    problem = dwelling(_hot(), START, IDENTIFIED)
+    problem = dwelling(_inflated(), START, IDENTIFIED)
     runs = len(LENGTHS) * len(PRESSURES)
     # Before its first command a run has been at rest for nobody knows how long.
     assert len(problem.dwells) == runs * (len(PRESSURES[0]) - 1)
@@ -53,10 +53,10 @@ def test_a_dwell_lasts_from_a_second_after_a_command_to_the_next() -> None:
 
 
 def test_four_dwells_are_too_few() -> None:
-    hot = _hot()
-    once = replace(hot, kept=tuple(
+    inflated = _inflated()
+    once = replace(inflated, kept=tuple(
         (np.arange(len(c)) < 1.6 * DWELL / STEP) & (i < 4)
-        for i, c in enumerate(hot.courses)
+        for i, c in enumerate(inflated.courses)
     ))  # fmt: skip
     assert dwelling(once, START, IDENTIFIED) is once
 
@@ -75,14 +75,14 @@ def _loudness(problem: Problem) -> float:
 
 
 def test_few_samples_are_as_loud_as_many() -> None:
-    hot = _hot()
+    inflated = _inflated()
     # Of 8 or 9 samples a dwell a level and two ways of creeping take three.
-    few = [_loudness(_sparse(hot, 8, first)) for first in range(8)]
-    assert np.mean(few) == pytest.approx(_loudness(hot), rel=0.05)
+    few = [_loudness(_sparse(inflated, 8, first)) for first in range(8)]
+    assert np.mean(few) == pytest.approx(_loudness(inflated), rel=0.05)
 
 
 def test_a_dwell_of_six_samples_is_none() -> None:
-    sparse = _sparse(_hot(), 12)
+    sparse = _sparse(_inflated(), 12)
     assert dwelling(sparse, START, IDENTIFIED) is sparse
 
 
@@ -96,25 +96,27 @@ def test_a_dwell_of_six_samples_is_none() -> None:
     ],
 )
 def test_what_moves_does_not_dwell(name: str, change: float, fewer: int) -> None:
-    hot = _hot()
-    first, *others = hot.courses
+    inflated = _inflated()
+    first, *others = inflated.courses
     ramp = change * ((first.time - first.time[0]) % DWELL) / DWELL
     moving = replace(
         first,
         measured={**first.measured, name: first.level(name) + ramp},
         smooth={one: smooth for one, smooth in first.smooth.items() if one != name},
     )
-    dwells = dwelling(replace(hot, courses=(moving, *others)), START, IDENTIFIED).dwells
+    dwells = dwelling(
+        replace(inflated, courses=(moving, *others)), START, IDENTIFIED
+    ).dwells
     assert len(dwells) == 27 - fewer
     assert fewer == 0 or all(block.course > 0 for block in dwells)
 
 
 def test_without_dwells_nothing_drifts() -> None:
-    assert drifted(_hot(), START) == misfit(_hot(), START) == 0.0
+    assert drifted(_inflated(), START) == misfit(_inflated(), START) == 0.0
 
 
 def test_the_level_of_a_dwell_costs_little_and_its_drift_much() -> None:
-    problem = dwelling(_hot(), START, IDENTIFIED)
+    problem = dwelling(_inflated(), START, IDENTIFIED)
     count = len(problem.dwells)
     base = misfit(problem, START)
     levelled = misfit(_with(problem, lambda t: 0.0 * t + LEVEL), START)
@@ -125,10 +127,12 @@ def test_the_level_of_a_dwell_costs_little_and_its_drift_much() -> None:
 
 
 def test_dwells_are_as_loud_as_what_no_creep_explains() -> None:
-    quiet = dwelling(_hot(), START, IDENTIFIED).dwells[0].noise
-    shaking = _hot(lambda m: 9.0 * np.sin(40.0 * m.time))
+    quiet = dwelling(_inflated(), START, IDENTIFIED).dwells[0].noise
+    shaking = _inflated(lambda m: 9.0 * np.sin(40.0 * m.time))
     loud = dwelling(shaking, START, IDENTIFIED).dwells[0].noise
-    crept = dwelling(_hot(stepped.creeping(0.05)), START, IDENTIFIED).dwells[0].noise
+    crept = (
+        dwelling(_inflated(stepped.creeping(0.05)), START, IDENTIFIED).dwells[0].noise
+    )
     assert quiet is not None
     assert loud is not None
     assert crept is not None
@@ -139,7 +143,7 @@ def test_dwells_are_as_loud_as_what_no_creep_explains() -> None:
 
 
 def test_the_noise_of_a_dwell_wanders_as_it_was_identified() -> None:
-    (first, *_) = dwelling(_hot(), START, IDENTIFIED).dwells
+    (first, *_) = dwelling(_inflated(), START, IDENTIFIED).dwells
     assert first.noise is not None
     assert first.noise.drift == LEVEL
     # Variance of the change over one second.
@@ -152,7 +156,7 @@ def test_the_noise_of_a_dwell_wanders_as_it_was_identified() -> None:
 
 
 def test_a_drift_is_told_from_a_level() -> None:
-    problem = dwelling(_hot(), START, IDENTIFIED)
+    problem = dwelling(_inflated(), START, IDENTIFIED)
     base = drifted(problem, START)
     assert drifted(_with(problem, lambda t: 0.0 * t + 50.0), START) == pytest.approx(
         base
@@ -165,6 +169,6 @@ def test_a_drift_is_told_from_a_level() -> None:
 
 
 def test_misfit_is_all_levels_here() -> None:
-    problem = dwelling(_hot(missed), START, IDENTIFIED)
+    problem = dwelling(_inflated(missed), START, IDENTIFIED)
     samples = sum(int(block.good.sum()) for block in problem.dwells)
     assert misfit(problem, START) == pytest.approx(samples, rel=0.1)

@@ -45,25 +45,25 @@ def test_near_the_noise_the_first_few_are_heard(
 def test_where_misfit_counts_the_first_of_each_stage_is_heard_as_well(
     blank: Problem, ranked: list[Member]
 ) -> None:
-    hot = replace(blank, temperatures={Signal.FORCE: 40.0})
+    inflated = replace(blank, inflations={Signal.FORCE: 40.0})
     late, tapered, rub, shifted = ranked
     sets = [(member,) for member in ranked]
     singles = dict.fromkeys(ranked, 1.0)
-    assert heard(hot, singles, sets, 2) == [(late,), (tapered,), (shifted,)]
+    assert heard(inflated, singles, sets, 2) == [(late,), (tapered,), (shifted,)]
     pairs = [(late, tapered), (late, rub), (tapered, shifted), (rub, shifted)]
-    assert heard(hot, singles, pairs, 1) == [(late, tapered), (tapered, shifted)]
+    assert heard(inflated, singles, pairs, 1) == [(late, tapered), (tapered, shifted)]
 
 
 def test_where_misfit_counts_none_is_heard_for_its_stage_alone(
     blank: Problem, ranked: list[Member]
 ) -> None:
-    hot = replace(blank, temperatures={Signal.FORCE: 40.0})
+    inflated = replace(blank, inflations={Signal.FORCE: 40.0})
     late, tapered, rub, shifted = ranked
     singles = {late: 3.0, tapered: 2.0, rub: 1.0, shifted: -0.5}
     sets = [(member,) for member in ranked]
-    assert heard(hot, singles, sets, 2) == [(late,), (tapered,)]
+    assert heard(inflated, singles, sets, 2) == [(late,), (tapered,)]
     pairs = [(late, tapered), (tapered, shifted)]
-    assert heard(hot, singles, pairs, 1) == [(late, tapered)]
+    assert heard(inflated, singles, pairs, 1) == [(late, tapered)]
 
 
 def test_the_best_form_leads_for_its_kind(blank: Problem) -> None:

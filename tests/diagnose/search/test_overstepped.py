@@ -33,7 +33,7 @@ def _told(diameter: float, hidden: Hidden) -> tuple[Found, Contest]:
 
 def test_a_bore_that_its_tolerance_holds_back_is_told() -> None:
     found, best = _told(0.0208, restless(threshold(60.0)))
-    assert found.problem.is_hot
+    assert found.problem.is_inflated
     assert best.best.names == ("threshold_pressure",)
     told = with_overstepped(found, best, LISTED)
     assert told.best.names == ("threshold_pressure", BORE)
@@ -51,14 +51,14 @@ def test_a_bore_that_its_tolerance_holds_back_is_told() -> None:
 
 def test_a_bore_within_its_tolerance_is_not_told() -> None:
     found, best = _told(0.0201, restless(threshold(60.0)))
-    assert found.problem.is_hot
+    assert found.problem.is_inflated
     assert with_overstepped(found, best, LISTED) is best
 
 
 def test_near_the_noise_nothing_is_let_go() -> None:
     found, best = _told(0.0208, threshold(60.0))
-    cool = replace(found, problem=replace(found.problem, temperatures={}))
-    assert with_overstepped(cool, best, LISTED) is best
+    calm = replace(found, problem=replace(found.problem, inflations={}))
+    assert with_overstepped(calm, best, LISTED) is best
 
 
 def test_a_size_that_nobody_mistakes_so_far_is_not_told(

@@ -34,9 +34,9 @@ def _rival(problem: Problem, *candidates: Candidate, cost: float) -> Rival:
 
 
 @pytest.fixture
-def hot(blank: Problem) -> Problem:
+def inflated(blank: Problem) -> Problem:
     """A recording that nothing explains down to its noise."""
-    return replace(blank, temperatures={Signal.FORCE: 40.0, Signal.PRESSURE: 1.0})
+    return replace(blank, inflations={Signal.FORCE: 40.0, Signal.PRESSURE: 1.0})
 
 
 def test_near_the_noise_the_likeliest_is_believed(blank: Problem) -> None:
@@ -45,24 +45,35 @@ def test_near_the_noise_the_likeliest_is_believed(blank: Problem) -> None:
 
 
 def test_far_above_it_what_no_limit_holds_back_is_believed_if_it_fits_alike(
-    hot: Problem,
+    inflated: Problem,
 ) -> None:
-    held = _rival(hot, AT_LIMIT, cost=300.0)
-    alike, worse = _rival(hot, LATE, cost=360.0), _rival(hot, LATE, cost=390.0)
-    assert preferred(hot, [held, alike]) is alike
-    assert preferred(hot, [held, worse]) is held
+    held = _rival(inflated, AT_LIMIT, cost=300.0)
+    alike, worse = (
+        _rival(inflated, LATE, cost=360.0),
+        _rival(inflated, LATE, cost=390.0),
+    )
+    assert preferred(inflated, [held, alike]) is alike
+    assert preferred(inflated, [held, worse]) is held
 
 
-def test_the_bore_is_told_before_a_mere_factor_that_fits_alike(hot: Problem) -> None:
-    factor = _rival(hot, LATE, GAIN, cost=300.0)
-    bore = _rival(hot, LATE, BORE, cost=320.0)
-    assert preferred(hot, [factor, bore]) is bore
-    assert preferred(hot, [factor, _rival(hot, LATE, BORE, cost=390.0)]) is factor
+def test_the_bore_is_told_before_a_mere_factor_that_fits_alike(
+    inflated: Problem,
+) -> None:
+    factor = _rival(inflated, LATE, GAIN, cost=300.0)
+    bore = _rival(inflated, LATE, BORE, cost=320.0)
+    assert preferred(inflated, [factor, bore]) is bore
+    assert (
+        preferred(inflated, [factor, _rival(inflated, LATE, BORE, cost=390.0)])
+        is factor
+    )
 
 
-def test_the_bore_is_not_told_before_an_effect_with_a_form(hot: Problem) -> None:
-    formed = _rival(hot, LATE, TAPERED, cost=300.0)
-    assert preferred(hot, [formed, _rival(hot, LATE, BORE, cost=320.0)]) is formed
+def test_the_bore_is_not_told_before_an_effect_with_a_form(inflated: Problem) -> None:
+    formed = _rival(inflated, LATE, TAPERED, cost=300.0)
+    assert (
+        preferred(inflated, [formed, _rival(inflated, LATE, BORE, cost=320.0)])
+        is formed
+    )
 
 
 def _edged(problem: Problem, rival: Rival, share: float) -> Rival:
@@ -74,17 +85,19 @@ def _edged(problem: Problem, rival: Rival, share: float) -> Rival:
 
 
 def test_the_bore_is_told_before_a_form_that_leaves_it_at_its_edge(
-    hot: Problem,
+    inflated: Problem,
 ) -> None:
-    formed = _rival(hot, LATE, TAPERED, cost=300.0)
-    bore = _rival(hot, LATE, BORE, cost=450.0)
-    assert hot.constants[1].path == "muscle.diameter"
-    edged = _edged(hot, formed, 1.0)
-    assert at_edge(hot, edged) == ("parameter:muscle.diameter",)
-    assert preferred(hot, [edged, bore]) is bore
-    assert preferred(hot, [_edged(hot, formed, 0.9), bore]).names == formed.names
-    worse = _rival(hot, LATE, BORE, cost=500.0)
-    assert preferred(hot, [edged, worse]) is edged
+    formed = _rival(inflated, LATE, TAPERED, cost=300.0)
+    bore = _rival(inflated, LATE, BORE, cost=450.0)
+    assert inflated.constants[1].path == "muscle.diameter"
+    edged = _edged(inflated, formed, 1.0)
+    assert at_edge(inflated, edged) == ("parameter:muscle.diameter",)
+    assert preferred(inflated, [edged, bore]) is bore
+    assert (
+        preferred(inflated, [_edged(inflated, formed, 0.9), bore]).names == formed.names
+    )
+    worse = _rival(inflated, LATE, BORE, cost=500.0)
+    assert preferred(inflated, [edged, worse]) is edged
 
 
 @pytest.mark.parametrize(("candidate", "held"), [(TAPERED, False), (AT_LIMIT, True)])

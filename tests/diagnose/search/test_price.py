@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.inflation import louder
 from gripperd.diagnose.fit.rival import Rival
-from gripperd.diagnose.fit.temperature import louder
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search import price

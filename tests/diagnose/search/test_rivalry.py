@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.inflation import louder
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, added
-from gripperd.diagnose.fit.temperature import louder
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import (
@@ -205,12 +205,12 @@ def test_how_badly_a_force_fits_excuses_nothing_in_the_pressure() -> None:
     assert standing_in(found, Contest(best, places)).equivalents == ((), ())
 
 
-def _loud(hidden: Hidden, temperature: float, **known: float) -> Problem:
+def _loud(hidden: Hidden, inflated: float, **known: float) -> Problem:
     """A recording in which misfit, not noise, is what is weighed against."""
     told = recording(restless(hidden))
     tolerances = {f"muscle.{name}": sigma for name, sigma in known.items()}
     problem = pinned(problem_of(told, MODEL, tolerances), "muscle.diameter")
-    return louder(problem, {Signal.FORCE: temperature, Signal.PRESSURE: 1.0})
+    return louder(problem, {Signal.FORCE: inflated, Signal.PRESSURE: 1.0})
 
 
 @pytest.mark.parametrize(

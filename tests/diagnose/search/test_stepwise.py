@@ -81,7 +81,7 @@ def test_a_first_effect_is_believed_at_odds_of_a_million(
 def test_far_from_the_model_and_without_a_candidate_nothing_is_named() -> None:
     problem = pinned(problem_of(recording(threshold(60.0)), MODEL, {}), *OPEN)
     found = search(problem, (), np.random.default_rng(0))
-    assert found.problem.is_hot
+    assert found.problem.is_inflated
     assert found.best is found.null
 
 

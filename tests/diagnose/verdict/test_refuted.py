@@ -59,21 +59,21 @@ def test_misfit_that_nothing_reaches_is_noise_to_it(
         signal: replace(noise, std=100 * noise.std, drift=100 * noise.drift)
         for signal, noise in problem.noises.items()
     }
-    hot = replace(told.found, problem=replace(problem, noises=loud))
+    inflated = replace(told.found, problem=replace(problem, noises=loud))
     parts = split(blank)
-    assert refuted(parts, parts.test, hot, blank_told) == ()
+    assert refuted(parts, parts.test, inflated, blank_told) == ()
 
 
-@pytest.mark.parametrize("warm", [1.0, 2.0])
+@pytest.mark.parametrize("inflated", [1.0, 2.0])
 def test_far_above_the_noise_no_constant_is_refuted(
-    blank: Problem, told: Diagnosis, blank_told: Contest, warm: float
+    blank: Problem, told: Diagnosis, blank_told: Contest, inflated: float
 ) -> None:
     best = blank_told.best
     bore = replace(best, candidates=(Candidate("parameter:muscle.diameter", None, 0),))
     found = replace(
         told.found,
-        problem=replace(told.found.problem, temperatures={Signal.FORCE: warm}),
+        problem=replace(told.found.problem, inflations={Signal.FORCE: inflated}),
     )
     parts = split(blank)
     names = refuted(parts, parts.test, found, replace(blank_told, best=bore))
-    assert bool(names) is (warm == 1.0)
+    assert bool(names) is (inflated == 1.0)

@@ -1,4 +1,11 @@
-"""How much louder than its noise a signal is taken, so that misfit is no news."""
+"""How much louder than its noise a signal is taken, so that misfit is no news.
+
+References
+----------
+.. [1] R. T. Birge, "The calculation of errors by the method of least squares", Phys.
+       Rev. 40(2), 207-227, 1932: uncertainties grow by the root of chi² per degree of
+       freedom where a fit is worse than they allow.
+"""
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
@@ -9,46 +16,52 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
 
-HOT = 1.3
+UNREACHED = 1.3
 """Mean square of whitened residuals above which the library does not reach the noise:
 what is left is then taken for noise, or every constant would be torn. [-]"""
 
 
-def temperatures_of(fit: Polished) -> dict[Signal, float]:
-    """Mean square of what is left, whitened; 1 where it is little more than noise."""
+def birge_ratios(fit: Polished) -> dict[Signal, float]:
+    """Mean square of what is left, whitened [1]_; 1 if little more than noise."""
     shares = {signal: fit.misfits[signal] / n for signal, n in fit.counts.items()}
     return {
-        s: share if share > HOT or share < 1 else 1.0 for s, share in shares.items()
+        s: share if share > UNREACHED or share < 1 else 1.0
+        for s, share in shares.items()
     }
 
 
-def _coolest(fits: Iterable[Polished]) -> dict[Signal, float]:
+def _least_ratios(fits: Iterable[Polished]) -> dict[Signal, float]:
     """Mean square that the best explanation of each signal leaves."""
     found: dict[Signal, float] = {}
     for fit in fits:
-        for signal, here in temperatures_of(fit).items():
+        for signal, here in birge_ratios(fit).items():
             found[signal] = min(found.get(signal, here), here)
     return found
 
 
 def reached(
-    warm: Mapping[Signal, float], fits: Iterable[Polished]
+    inflated: Mapping[Signal, float], fits: Iterable[Polished]
 ) -> dict[Signal, float]:
-    """How loud noises that were taken so warm turn out, by the best of some fits."""
-    found = {signal: warm[signal] * share for signal, share in _coolest(fits).items()}
-    return {signal: share if share > HOT else 1.0 for signal, share in found.items()}
+    """How loud noises turn out that were inflated so, by the best of some fits."""
+    found = {
+        signal: inflated[signal] * share
+        for signal, share in _least_ratios(fits).items()
+    }
+    return {
+        signal: share if share > UNREACHED else 1.0 for signal, share in found.items()
+    }
 
 
-def louder(problem: Problem, temperatures: Mapping[Signal, float]) -> Problem:
+def louder(problem: Problem, inflations: Mapping[Signal, float]) -> Problem:
     """Give the problem with noise as loud as what no explanation reaches."""
     noises = dict(problem.noises)
-    for signal, temperature in temperatures.items():
-        noise, factor = noises[signal], temperature**0.5
+    for signal, ratio in inflations.items():
+        noise, factor = noises[signal], ratio**0.5
         noises[signal] = Noise(
             noise.std * factor, noise.correlation, noise.drift * factor, noise.memory
         )
     return replace(
-        problem, noises=noises, temperatures=MappingProxyType(dict(temperatures))
+        problem, noises=noises, inflations=MappingProxyType(dict(inflations))
     )
 
 
@@ -67,9 +80,11 @@ def plain(problem: Problem, signals: Collection[Signal]) -> Problem:
     return replace(problem, noises=noises)
 
 
-def cooled(problem: Problem, fit: Polished) -> Problem:
+def deflated(problem: Problem, fit: Polished) -> Problem:
     """Give the problem with noise no louder than what an explanation leaves."""
-    warm = problem.temperatures
-    cooler = {s: min(found, warm[s]) for s, found in reached(warm, [fit]).items()}
-    shares = {signal: found / warm[signal] for signal, found in cooler.items()}
-    return replace(louder(problem, shares), temperatures=MappingProxyType(cooler))
+    inflated = problem.inflations
+    lower = {
+        s: min(found, inflated[s]) for s, found in reached(inflated, [fit]).items()
+    }
+    shares = {signal: found / inflated[signal] for signal, found in lower.items()}
+    return replace(louder(problem, shares), inflations=MappingProxyType(lower))

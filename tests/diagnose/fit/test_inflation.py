@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.fit.inflation import deflated, louder, plain, reached
 from gripperd.diagnose.fit.polish import Polished
-from gripperd.diagnose.fit.temperature import cooled, louder, plain, reached
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -67,7 +67,7 @@ def test_a_stage_far_from_its_model_leaves_the_noise_of_the_others_as_it_was() -
     told = altered(recording(nothing), moments(), "current", _restless)
     problem = pinned(problem_of(told, MODEL, {}), *OPEN)
     found = search(problem, LISTED, np.random.default_rng(0))
-    assert found.problem.temperatures[Signal.PRESSURE] > 2.0
+    assert found.problem.inflations[Signal.PRESSURE] > 2.0
     assert found.problem.noises[Signal.FORCE] == problem.noises[Signal.FORCE]
     assert found.best.names == ()
 
@@ -83,21 +83,21 @@ def problem() -> Problem:
 def test_what_an_explanation_reaches_is_no_louder_than_it_leaves(
     problem: Problem,
 ) -> None:
-    hot = louder(problem, {Signal.FORCE: 100.0, Signal.PRESSURE: 1.0})
-    cool = cooled(hot, fitted(hot).fit)
-    assert cool.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.1)
-    assert cool.temperatures[Signal.FORCE] == pytest.approx(1.0, abs=0.2)
+    inflated = louder(problem, {Signal.FORCE: 100.0, Signal.PRESSURE: 1.0})
+    calm = deflated(inflated, fitted(inflated).fit)
+    assert calm.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.1)
+    assert calm.inflations[Signal.FORCE] == pytest.approx(1.0, abs=0.2)
 
 
 def test_cooling_goes_no_further_than_the_noise(problem: Problem) -> None:
     still = replace(problem, noises={**problem.noises, Signal.FORCE: Noise(30.0, 0.0)})
-    hot = louder(still, {Signal.FORCE: 4.0, Signal.PRESSURE: 1.0})
-    cool = cooled(hot, fitted(hot).fit)
-    assert cool.noises[Signal.FORCE].std == pytest.approx(30.0)
-    assert cool.temperatures[Signal.FORCE] == pytest.approx(1.0)
+    inflated = louder(still, {Signal.FORCE: 4.0, Signal.PRESSURE: 1.0})
+    calm = deflated(inflated, fitted(inflated).fit)
+    assert calm.noises[Signal.FORCE].std == pytest.approx(30.0)
+    assert calm.inflations[Signal.FORCE] == pytest.approx(1.0)
 
 
 def test_cooling_never_heats(problem: Problem) -> None:
     quiet = replace(problem, noises={**problem.noises, Signal.FORCE: Noise(0.3, 0.0)})
     same = louder(quiet, {Signal.FORCE: 2.0, Signal.PRESSURE: 1.0})
-    assert cooled(same, fitted(same).fit).temperatures[Signal.FORCE] == 2.0
+    assert deflated(same, fitted(same).fit).inflations[Signal.FORCE] == 2.0
