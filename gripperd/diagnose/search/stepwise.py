@@ -34,8 +34,11 @@ LEAST = 13.0
 """Gain below which no model of a rig is known well enough: odds of 4e5. In 144
 recordings of six rigs that lacked nothing the most was 10, but for delays that are too
 short to be seen. [nat]"""
+LEAST_SLOW = 20.0
+"""The same of what time, order or warmth tells, as it does a drift: odds of 5e8. One in
+eight drifts of 0.2 % of full scale gave 17. [nat]"""
 LEAST_BESIDE = 20.0
-"""The same beside another effect, whose formula is ours: odds of 5e8. [nat]"""
+"""The same beside another effect, whose formula is ours. [nat]"""
 LEAST_PLAIN = 8.0
 """The same of an offset or a factor, which little resembles: odds of 3000. [nat]"""
 MISFIT = 2.0
@@ -182,7 +185,14 @@ def _least(problem: Problem, candidates: Sequence[Candidate]) -> float:
     # Noise as loud as the misfit holds the doubt about the model already.
     if problem.is_inflated:
         return 0.0
-    return LEAST_PLAIN if all(is_plain(one) for one in candidates) else LEAST
+    if all(is_plain(one) for one in candidates):
+        return LEAST_PLAIN
+    return LEAST_SLOW if any(map(_is_slow, candidates)) else LEAST
+
+
+def _is_slow(candidate: Candidate) -> bool:
+    effect = candidate.effect
+    return effect is not None and (effect.timed or "temperature" in effect.needs)
 
 
 def _grown(found: Found, listed: Sequence[Candidate]) -> Found:

@@ -78,6 +78,18 @@ def test_a_first_effect_is_believed_at_odds_of_a_million(
     assert not names or 13.8 < gain < 20.0
 
 
+@pytest.mark.parametrize(
+    ("trait", "value"),
+    [("timed", True), ("needs", ThresholdPressure.needs | {"temperature"})],
+)
+def test_what_a_drift_could_imitate_must_gain_more(
+    monkeypatch: pytest.MonkeyPatch, trait: str, value: object
+) -> None:
+    monkeypatch.setattr(ThresholdPressure, trait, value)
+    assert searched(threshold(2.5)).best.names == ()
+    assert searched(threshold(3.0)).best.names == ("threshold_pressure",)
+
+
 def test_far_from_the_model_and_without_a_candidate_nothing_is_named() -> None:
     problem = pinned(problem_of(recording(threshold(60.0)), MODEL, {}), *OPEN)
     found = search(problem, (), np.random.default_rng(0))
