@@ -18,8 +18,6 @@ LONG_ENOUGH = 10.0
 """A shorter hold says nothing about drift. [s]"""
 FIRST = 1.0
 """Inflations finished before any but the first. [-]"""
-FEWEST = 4
-"""Samples that both of two repeats have."""
 
 
 def vented(problem: Problem, signal: Signal) -> list[Quiet]:
@@ -93,22 +91,16 @@ def repeated(
             one, other = (problem.courses[problem.blocks[k].course] for k in (i, j))
             if i in taken or j in taken or not alike(_run(one), _run(other)):
                 continue
-            # Either lacks samples of its own: partners are as many after the start.
-            seen, again = (np.flatnonzero(problem.blocks[k].good) for k in (i, j))
-            _, here, there = np.intersect1d(
-                seen, again, assume_unique=True, return_indices=True
-            )
-            if here.size < FEWEST:
-                continue
             taken |= {i, j}
             if first != (one.cycle[0] < FIRST):
                 continue
-            load = problem.measured[i][here]
+            size = min(residuals[i].size, residuals[j].size)
+            load = problem.measured[i][:size]
             found.append(
                 repeat(
-                    problem.times[i][here],
-                    residuals[i][here],
-                    residuals[j][there],
+                    problem.times[i][:size],
+                    residuals[i][:size],
+                    residuals[j][:size],
                     load / max(float(np.max(np.abs(load))), 1e-300),
                 )
             )
