@@ -1,6 +1,7 @@
 """A diagnosis as the document that files and replies have, in the units of its keys."""
 
 from collections.abc import Mapping, Sequence
+from math import floor, log10
 from typing import TypeAlias
 
 import numpy as np
@@ -86,12 +87,14 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
 
 
 def _constant(one: Recalibrated) -> Document:
+    # Beyond a thousandth of its deviation a fit is a matter of rounding.
+    digits = 3 - floor(log10(one.std)) if one.std > 0 else None
     return {
         "name": public(f"{WRONG}{one.constant.path}").removeprefix(WRONG),
         "model": number(one.model),
         "tolerance": number(one.tolerance),
-        "fit": number(one.fit),
-        "std": number(one.std),
+        "fit": number(one.fit if digits is None else round(one.fit, digits)),
+        "std": number(float(f"{one.std:.3g}")),
     }
 
 
