@@ -75,6 +75,7 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
         "constants": [
             _constant(one)
             for one in recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+            if one.constant.moves.intersection(diagnosis.found.problem.signals)
         ],
         "untested": dict(diagnosis.untested),
         "contradictions": [_contradiction(one) for one in recording.contradictions],
@@ -94,7 +95,7 @@ def _constant(one: Recalibrated) -> Document:
         "model": number(one.model),
         "tolerance": number(one.tolerance),
         "fit": number(one.fit if digits is None else round(one.fit, digits)),
-        "std": number(float(f"{one.std:.3g}")),
+        "std": number(float(f"{one.std:.4g}")),
     }
 
 
