@@ -31,7 +31,7 @@ from gripperd.diagnose.search.price import worth
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
 LEAST = 13.0
-"""Gain below which no model of a rig is known well enough: odds of 4e5. In 144
+"""Gain below which no model of a rig is known well enough: odds of 4e5. In 96
 recordings of six rigs that lacked nothing the most was 10, but for delays that are too
 short to be seen. [nat]"""
 LEAST_SLOW = 20.0
