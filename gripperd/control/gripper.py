@@ -128,6 +128,7 @@ class Gripper:
         """
         if (known := self.ledger.replay(key)) is not None:
             return known, True
+        self.permission.expire(now)
         self.faults.check()
         if self.machine is not Machine.EXECUTING:
             self._life.check(Event.START)

@@ -115,13 +115,21 @@ class Permission:
             hints = (HINTS[ESTOPPED.code],)
             raise Refused(ESTOPPED.message, code=ESTOPPED.code, hints=hints)
 
-    def enforce(self, now: Instant) -> None:
-        """End what may not go on."""
+    def expire(self, now: Instant) -> None:
+        """End a lease whose time is up, and what was given under it.
+
+        Also between two periods, before anything new is allowed: else that would end
+        with it.
+        """
         lease = self.tenancy.run_out(now)
         if lease is not None:
             text = f"the lease of {lease.owner} ran out"
             self._journal.note(Happening.LEASE, text, now.wall)
             self._end(LEASE_RAN_OUT, now)
+
+    def enforce(self, now: Instant) -> None:
+        """End what may not go on."""
+        self.expire(now)
         if self._interlocks.estopped and self._life.state is not Machine.ESTOPPED:
             self._dispatch.rest()
             self._life.on(Event.ESTOP)

@@ -52,6 +52,7 @@ def respond(request: Request, gripper: Gripper, now: Instant) -> LeaseState:
     tenancy, journal = gripper.permission.tenancy, gripper.ledger.journal
     match request:
         case TakeLease(_, owner, token, ttl):
+            gripper.permission.expire(now)
             renewed = tenancy.lease(now) is not None
             tenancy.take(owner, token, ttl, now)
             if not renewed:

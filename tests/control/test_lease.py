@@ -1,10 +1,12 @@
 import pytest
 
 from gripperd.control.command import GraspOrder, Status
+from gripperd.control.journal import Happening
 from gripperd.control.lease import Tenancy
 from gripperd.control.snapshot import Instant
 from gripperd.control.states import Grip, Machine
 from gripperd.errors import Refused
+from gripperd.link.lease import TakeLease, respond
 
 from .stage import Stage, real
 
@@ -92,6 +94,32 @@ def test_when_it_runs_out_what_is_held_stays_held(holding: Stage) -> None:
     holding.run(3.0)
     assert holding.state.grip is Grip.HOLDING
     assert holding.rig.plant.current == pytest.approx(current, abs=2e-4)
+
+
+def test_what_is_given_after_its_end_does_not_end_with_it(ready: Stage) -> None:
+    ready.gripper.permission.tenancy.take("Ann", "a", 0.5, ready.instant)
+    ready.pass_time(0.5)
+    given = ready.submit(None)
+    ready.run(3.0)
+    assert ready.command(given).status is Status.SUCCEEDED
+
+
+def test_the_next_owner_does_not_inherit_what_moves(
+    ready: Stage, apple: GraspOrder
+) -> None:
+    ready.gripper.permission.tenancy.take("Ann", "a", 0.5, ready.instant)
+    running = ready.submit(apple)
+    ready.run(0.3)
+    assert ready.command(running).status is Status.RUNNING
+    late = at(ready.instant.monotonic + 0.5)
+    respond(TakeLease("g0", "Bob", "b", 60.0), ready.gripper, late)
+    assert ready.failure(running).code == "lease-lost"
+    leases = [
+        entry.text
+        for entry in ready.gripper.ledger.journal.since(0)
+        if entry.kind is Happening.LEASE
+    ]
+    assert leases == ["the lease of Ann ran out", "Bob took the lease for 60 s"]
 
 
 def test_nothing_ends_before_its_time(ready: Stage, apple: GraspOrder) -> None:
