@@ -53,7 +53,7 @@ from gripperd.diagnose.verdict.judged import (
 )
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
-from gripperd.diagnose.verdict.refuted import refuted
+from gripperd.diagnose.verdict.refuted import refuted, without_refuted
 from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.diagnose.verdict.signature import signature
 from gripperd.diagnose.verdict.where import Finding, findings
@@ -144,7 +144,7 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
     InputError
         When no stage of the model can be compared with what was measured.
     """
-    # Threads cost small matrices more than they give, and would round otherwise.
+    # Threads cost small matrices more than they save, and round otherwise.
     with threadpool_limits(limits=1, user_api="blas"):
         progress("noise and drift", 0.05)
         contradicted = beyond_use(recording)
@@ -187,8 +187,9 @@ def _diagnosed(
     best = with_overstepped(found, best, listed)
     best = with_usual_tolerances(found, best)
     found, best = with_aftermath(found, best, listed, train.noises)
-    best = with_stiction(found, best)
     progress("verdict", 0.9)
+    best = with_stiction(found, best)
+    best = without_refuted(parts, apart(parts)[0], found, best, listed)
     return _told(recording, parts, found, best, untested, seed)
 
 

@@ -36,8 +36,6 @@ class Ripple:
 
     frequency: float
     """[Hz]"""
-    excess: float
-    """Sum of squares above what noise has. [-]"""
     p_value: float
     amplitude: float
     """Root mean square over all samples, in units of the signal."""
@@ -53,8 +51,7 @@ def ripple(white: Sequence[Array], times: Sequence[Array], noise: Noise) -> Ripp
     noise
         By which they were whitened.
     """
-    best, place, excess, ordinates = 0.0, 0.0, 0.0, 0
-    power = 0.0
+    best, place, power, ordinates = 0.0, 0.0, 0.0, 0
     for left, time in zip(white, times, strict=True):
         cycles, density = _fast(left)
         if not density.size or density.mean() <= 0:
@@ -63,17 +60,15 @@ def ripple(white: Sequence[Array], times: Sequence[Array], noise: Noise) -> Ripp
         over = density / density.mean()
         part = over > LOUD
         more = float((density[part] - WHITE).sum())
-        excess += more
         power += more * _gain(noise, float(cycles[np.argmax(over)]))
         if over.max() > best:
             best = float(over.max())
             place = float(cycles[np.argmax(over)] / np.median(np.diff(time)))
     if not ordinates:
-        return Ripple(0.0, 0.0, 1.0, 0.0)
+        return Ripple(0.0, 1.0, 0.0)
     samples = sum(left.size for left in white)
     return Ripple(
         place,
-        excess,
         min(1.0, ordinates * exp(-best)),
         (max(power, 0.0) / samples) ** 0.5,
     )

@@ -11,13 +11,15 @@ References
        hypotheses", Econometrica 57(2), 307-333, 1989.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
+from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.verdict.rested import with_own_sign
 
 TELLING = 20.0
@@ -26,6 +28,39 @@ speak: four standard deviations of what noise makes of it. [-]"""
 AGAINST = 0.25
 """Share of them by which it is worse with the name. On two rigs nobody here had seen 1
 of 201 right names made it so, and 18 of 56 that were wrong. [-]"""
+
+
+def without_refuted(
+    parts: Split,
+    inside: Problem,
+    found: Found,
+    best: Contest,
+    listed: Sequence[Candidate],
+) -> Contest:
+    """Tell no more what was left out speaks against, as long as something else is told.
+
+    What stands beside a name that is wrong need not be wrong itself: it is fitted and
+    challenged anew.
+
+    Parameters
+    ----------
+    parts, inside, found, best
+        As of :func:`refuted`.
+    listed
+        What could be missing.
+    """
+    while len(best.best.candidates) > 1:
+        names = refuted(parts, inside, found, best)
+        without = [
+            place.without
+            for name, place in zip(best.best.names, best.places, strict=True)
+            if name in names
+        ]
+        if not without:
+            break
+        rest = max(without, key=lambda one: one.evidence)
+        best = contest(replace(found, best=rest), listed)
+    return best
 
 
 def refuted(

@@ -100,10 +100,12 @@ def _ripple(problem: Problem, white: Sequence[Array], signal: Signal) -> Structu
         [problem.times[i] for i in indices],
         problem.noises[signal],
     )
+    samples = sum(white[i].size for i in indices)
     return Structure(
         signal,
         f"time, at {wave.frequency:.1f} Hz",
-        wave.excess,
+        # By its size, as all that is slow: noise may have hardly any power so fast.
+        samples * wave.amplitude**2 / problem.noises[signal].slow_variance,
         wave.p_value,
         wave.amplitude / problem.full_scale[signal],
         1.0,

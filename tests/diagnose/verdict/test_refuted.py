@@ -6,11 +6,13 @@ import pytest
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.rivalry import Contest, Place
-from gripperd.diagnose.verdict.refuted import refuted
+from gripperd.diagnose.search.rivalry import Contest, Place, without_each
+from gripperd.diagnose.verdict.refuted import refuted, without_refuted
+from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
 
@@ -62,6 +64,31 @@ def test_misfit_that_nothing_reaches_is_noise_to_it(
     inflated = replace(told.found, problem=replace(problem, noises=loud))
     parts = split(blank)
     assert refuted(parts, parts.test, inflated, blank_told) == ()
+
+
+def test_what_stands_beside_a_wrong_name_stays_told(told: Diagnosis) -> None:
+    """A threshold is hidden; nothing rubs."""
+    right, parts = told.contest.best, told.split
+    rubs = Candidate("coulomb_friction", CoulombFriction(magnitude=40.0))
+    point = right.fit.point.with_effect(CoulombFriction(magnitude=40.0))
+    both = Rival((*right.candidates, rubs), replace(right.fit, point=point))
+    places = tuple(map(Place, without_each(told.found.problem, both)))
+    wrong = Contest(both, places)
+    assert "coulomb_friction" in refuted(parts, parts.test, told.found, wrong)
+    rest = without_refuted(parts, parts.test, told.found, wrong, (*both.candidates,))
+    assert rest.best.names == ("threshold_pressure",)
+    threshold = rest.best.fit.point.effects[-1]
+    assert isinstance(threshold, ThresholdPressure)
+    assert threshold.pressure == pytest.approx(25e3, rel=0.1)
+
+
+def test_a_name_alone_is_not_taken_away(
+    blank: Problem, told: Diagnosis, blank_told: Contest
+) -> None:
+    parts = split(blank)
+    found = replace(told.found, best=blank_told.best)
+    rest = without_refuted(parts, parts.test, found, blank_told, ())
+    assert rest is blank_told
 
 
 @pytest.mark.parametrize("inflated", [1.0, 2.0])

@@ -13,6 +13,7 @@ from gripperd.diagnose.verdict.structure import Structure, chi_square_tail, stru
 from gripperd.diagnose.verdict.structure import _cosines as cosines
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from tests.diagnose.small import STEP
 from tests.diagnose.sweep import noise
 
 STD = 3.0
@@ -125,6 +126,21 @@ def test_the_excess_is_what_noise_has_not(plain: Problem) -> None:
     assert found.excess == pytest.approx(4.0 * samples, rel=0.1)
     quiet = structures(plain, _residuals(plain, 2))
     assert abs(np.mean([one.excess for one in quiet if "x" not in one.along])) < 12.0
+
+
+def test_a_fast_wave_counts_by_its_size_and_not_by_how_little_noise_is_there(
+    blank: Problem,
+) -> None:
+    wandering = replace(blank, noises={Signal.FORCE: Noise(STD, 0.9)})
+    waves = [STD * np.sin(2 * np.pi * 0.25 * t / STEP) for t in wandering.times]
+    found = {one.along: one for one in structures(wandering, waves)}["time, at 1.0 Hz"]
+    assert found.p_value < 1e-6
+    assert found.size * wandering.full_scale[Signal.FORCE] == pytest.approx(
+        STD / 2**0.5, rel=0.2
+    )
+    # Half the variance of one sample; such noise has 1.9 / 0.1 times it where slow.
+    samples = sum(time.size for time in wandering.times)
+    assert found.excess == pytest.approx(0.5 * samples * 0.1 / 1.9, rel=0.4)
 
 
 def test_one_wave_holds_most_of_the_sum(plain: Problem) -> None:
