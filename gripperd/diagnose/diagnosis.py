@@ -1,8 +1,7 @@
 """The whole story of one recording: where, which effect, how much better."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TypeAlias
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -20,16 +19,9 @@ from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.overstepped import with_overstepped
-from gripperd.diagnose.search.reading import as_read
-from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
-from gripperd.diagnose.search.resting import with_sign_beside
-from gripperd.diagnose.search.rivalry import Contest, contest
-from gripperd.diagnose.search.stepwise import search
-from gripperd.diagnose.search.stiction import with_stiction
-from gripperd.diagnose.search.tolerances import with_usual_tolerances
+from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.selection import Progress, Selection, selected
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.conclude import (
     Conclusion,
@@ -61,9 +53,6 @@ from gripperd.model.effect import Effect, Signal
 
 MOST_ROWS = 40_000
 """More are averaged, whole numbers of neighbours: they cost and tell nothing."""
-
-Progress: TypeAlias = Callable[[str, float], None]
-"""Told what is being done, and the share that is done. [0..1]"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,53 +143,22 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         parts = split(replace(problem, processes=processes))
         if contradicted:
             return _without_verdict(recording, contradicted, parts, seed)
-        return _diagnosed(recording, parts, tolerances, library, seed, progress)
+        listed, untested = candidates(library, parts.train, _columns(recording))
+        rng = np.random.default_rng(seed)
+        selection = selected(parts, listed, tolerances, rng, progress)
+        progress("verdict", 0.9)
+        parts, found = selection.parts, selection.found
+        inside, _ = apart(parts)
+        best = without_refuted(parts, inside, found, selection.contest, listed)
+        borne_out = replace(selection, contest=best)
+        return _judged(recording, borne_out, untested, seed)
 
 
-def _diagnosed(
-    recording: Recording,
-    parts: Split,
-    tolerances: Mapping[str, float],
-    library: Mapping[str, type[Effect]],
-    seed: int,
-    progress: Progress,
+def _judged(
+    recording: Recording, selection: Selection, untested: dict[str, str], seed: int
 ) -> Diagnosis:
-    rng = np.random.default_rng(seed)
-    listed, untested = candidates(library, parts.train, _columns(recording))
-    progress("friction at rest, and valves", 0.2)
-    train = as_read(parts.train, listed)
-    progress("candidates, singles and pairs", 0.3)
-    found = search(train, listed, rng)
-    beside = with_sign_beside(found.problem, found.best)
-    if beside is not found.problem:
-        train = replace(train, model=beside.model)
-        found = search(train, listed, rng)
-    known = replace(
-        parts.test, model=train.model, courses=train.courses, band=train.band
-    )
-    parts = replace(parts, train=train, test=known)
-    progress("rivals", 0.7)
-    best = contest(found, listed)
-    if length_is_open(train, best, tolerances):
-        progress("rest length", 0.8)
-        best = with_other_length(train, best, listed, rng)
-    best = with_overstepped(found, best, listed)
-    best = with_usual_tolerances(found, best)
-    found, best = with_aftermath(found, best, listed, train.noises)
-    progress("verdict", 0.9)
-    best = with_stiction(found, best)
-    best = without_refuted(parts, apart(parts)[0], found, best, listed)
-    return _told(recording, parts, found, best, untested, seed)
-
-
-def _told(
-    recording: Recording,
-    parts: Split,
-    found: Found,
-    best: Contest,
-    untested: dict[str, str],
-    seed: int,
-) -> Diagnosis:
+    """Hold what was selected against the sweeps that were left out."""
+    parts, found, best = selection.parts, selection.found, selection.contest
     train = parts.train
     # The noise of a table is not known, so what is left cannot be held against it.
     judge = found.problem if is_table(train.courses) else train
