@@ -10,15 +10,9 @@ from rich.text import Text
 from gripperd.cli.model import PIPE_WIDTH
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import UNNAMED
+from gripperd.diagnose.objection import contradicted, left_out
 from gripperd.diagnose.readings.columns import BY_QUANTITY
-from gripperd.diagnose.statement import (
-    contradicted,
-    left_out,
-    offered,
-    span,
-    statement,
-    summary,
-)
+from gripperd.diagnose.statement import offered, span, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.gap import Gap

@@ -2,24 +2,20 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.objection import contradicted
 from gripperd.diagnose.readings.columns import BY_QUANTITY
-from gripperd.diagnose.readings.recording import Contradiction, Rejection
 from gripperd.diagnose.search.sleep import SLEEPS
 from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
-from gripperd.diagnose.verdict.figures import fixed
+from gripperd.diagnose.verdict.figures import fixed, listed
 from gripperd.diagnose.verdict.key import key_of_constant, keys_of, plain, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import recalibrated
 from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
-SHOWN = 4
-"""Sweeps named in a sentence."""
 LITTLE = 0.8
 """Share of a gap that better constants leave, above which they need no mention. [-]"""
 PLACES = {"time": 0, "pressure": 0, "contraction": 3}
@@ -166,10 +162,9 @@ def _closed(diagnosis: Diagnosis) -> str:
     if diagnosis.main is None:
         return ""
     gap = diagnosis.gaps[diagnosis.main]
-    column = BY_QUANTITY[diagnosis.main.value]
     before, better, after, floor = (
-        f"{value / column.scale:.3g} {column.unit}"
-        for value in (gap.before, gap.recalibrated, gap.after, gap.noise_floor)
+        _size(gap.signal, size)
+        for size in (gap.before, gap.recalibrated, gap.after, gap.noise_floor)
     )
     # What better constants close is no merit of an effect.
     beside = f" ({better} with better constants alone)" if better != after else ""
@@ -222,33 +217,16 @@ def span(finding: Finding, name: str) -> str:
     return " to ".join(dict.fromkeys(ends))
 
 
-def contradicted(found: Contradiction, most: int = SHOWN) -> str:
-    """Say what contradicts what, with so many sweeps by name on either side.
-
-    Written as "force_N of a, b differs from that of c by 310 N at the same place".
-    """
-    runs, others = (_some(names, most) for names in (found.runs, found.others))
-    said = (
-        f"{found.column} of {runs} differs from that of {others} by"
-        f" {abs(found.difference):.3g} {found.unit} at the same place"
-    )
-    if np.isfinite(found.spread):
-        said += f", and repeats by {found.spread:.2g} {found.unit}"
-    return said
-
-
 def offered(offer: Offer) -> str:
     """Say what a correction is worth, and what it is not."""
     found, worth = offer.correction, offer.worth
-    column = BY_QUANTITY[found.signal.value]
     on = [
         one.quantity
         for one, length in zip(found.regressors, found.lengths, strict=True)
         if length is not None
     ]
     without, corrected = (
-        f"{size / column.scale:.3g} {column.unit}".rstrip()
-        for size in (worth.without, worth.corrected)
+        _size(found.signal, size) for size in (worth.without, worth.corrected)
     )
     return (
         f"A smooth correction of the {found.signal.value} by {listed(on) or 'nothing'}"
@@ -264,36 +242,3 @@ def reasons(diagnosis: Diagnosis) -> dict[str, list[str]]:
     for name, reason in diagnosis.untested.items():
         found.setdefault(reason, []).append(public(name))
     return found
-
-
-def left_out(rejected: Sequence[Rejection]) -> list[str]:
-    """Say what was left out, a line for each reason in a column.
-
-    Written as "446 of force_N in a, b, c, d and 15 more, exactly 0 N".
-    """
-    groups: dict[tuple[str, str], list[Rejection]] = {}
-    for one in rejected:
-        groups.setdefault((one.column, one.reason), []).append(one)
-    return [
-        f"{sum(one.count for one in group)} of {column} in"
-        f" {_some([one.run for one in group], SHOWN)}, {reason}"
-        for (column, reason), group in groups.items()
-    ]
-
-
-def _some(names: Sequence[str], most: int) -> str:
-    shown = list(names[:most])
-    if more := len(names) - len(shown):
-        shown.append(f"{more} more")
-    return listed(shown)
-
-
-def listed(words: Sequence[str], last: str = "and") -> str:
-    """Join words the way a sentence has them.
-
-    >>> listed(["a", "b", "c"], "or")
-    'a, b or c'
-    """
-    if len(words) < 2:
-        return "".join(words)
-    return f"{', '.join(words[:-1])} {last} {words[-1]}"

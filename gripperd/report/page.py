@@ -5,14 +5,9 @@ from typing import TYPE_CHECKING
 import yaml
 
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.objection import contradicted, left_out
 from gripperd.diagnose.readings.columns import BY_QUANTITY
-from gripperd.diagnose.statement import (
-    contradicted,
-    left_out,
-    offered,
-    statement,
-    summary,
-)
+from gripperd.diagnose.statement import offered, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.key import public
 from gripperd.report import rows

@@ -1,19 +1,11 @@
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.recording import Contradiction
-from gripperd.diagnose.statement import (
-    contradicted,
-    offered,
-    reasons,
-    span,
-    statement,
-    summary,
-)
+from gripperd.diagnose.statement import offered, reasons, span, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate, Named
 from gripperd.diagnose.verdict.where import Finding
@@ -197,9 +189,3 @@ def test_a_region_is_told_in_the_units_of_the_file(name: str, said: str) -> None
     }
     finding = Finding("muscle", Signal.FORCE, "step_0", region, 9.3, 1.6, 1e-10)
     assert span(finding, name) == said
-
-
-def test_where_nothing_was_repeated_nothing_is_said_of_it() -> None:
-    found = Contradiction(("a",), ("b",), "force_N", 310.0, "N", np.nan)
-    said = contradicted(found)
-    assert said.endswith("by 310 N at the same place")

@@ -1,5 +1,6 @@
-"""Numbers of a diagnosis as a person reads them."""
+"""Numbers and lists of a diagnosis as a person reads them."""
 
+from collections.abc import Sequence
 from math import floor, inf, log10
 
 from gripperd.diagnose.verdict.named import Estimate
@@ -38,3 +39,14 @@ def stopped(one: Estimate) -> bool:
     near = 1e-6 * (one.high - one.low)
     ends = min(one.value - one.low, one.high - one.value)
     return -inf < one.low < one.high < inf and ends <= near
+
+
+def listed(words: Sequence[str], last: str = "and") -> str:
+    """Join words the way a sentence has them.
+
+    >>> listed(["a", "b", "c"], "or")
+    'a, b or c'
+    """
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"
