@@ -19,7 +19,14 @@ from gripperd.diagnose.search.finalists import leaders
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.preference import strained
 from gripperd.diagnose.search.price import LEAST_MORE, MUCH, is_fault
-from gripperd.diagnose.search.rivalry import SURE, Contest, Place, needed, removed
+from gripperd.diagnose.search.rivalry import (
+    SURE,
+    Contest,
+    Place,
+    needed,
+    removed,
+    without_each,
+)
 from gripperd.model.effect import Signal
 
 NEXT = 2
@@ -110,7 +117,8 @@ def _with(
     # A form that other sweeps foretell goes before one that fits these better.
     before = here.fit
     going.sort(key=lambda one: not bears_out(problem, before, one.fit, [kind.signal]))
-    told, without = needed(problem, going[0], found.threshold)
+    without = without_each(problem, going[0])
+    told, without = needed(problem, going[0], without, found.threshold)
     own, *alike = (rival.candidates[-1] for rival in _first_forms(going))
     if own not in told.candidates:
         return found, best

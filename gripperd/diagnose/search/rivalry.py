@@ -61,30 +61,29 @@ class Contest:
 
 def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
     """Let rivals challenge each effect in turn; a better one takes its place."""
-    best = found.best
-    challenged = _all_challenged(found.problem, best, listed)
+    problem, best = found.problem, found.best
+    without = without_each(problem, best)
+    challenged = _challenged(problem, best, without, listed)
     for _ in range(EXCHANGES):
         ahead = [
             rival
-            for bare, rivals in challenged
+            for bare, rivals in zip(without, challenged, strict=True)
             for rival in rivals
             if rival.evidence > best.evidence + EVEN and _pays(found, bare, rival)
         ]
         if not ahead:
             break
-        champion = preferred(found.problem, ahead)
-        if found.problem.is_inflated and not _sounder(found.problem, best, champion):
+        champion = preferred(problem, ahead)
+        if problem.is_inflated and not _sounder(problem, best, champion):
             break
-        best = champion
-        challenged = _all_challenged(found.problem, best, listed)
-    while len(best.candidates) > 1:
-        idle = max((without for without, _ in challenged), key=lambda one: one.evidence)
-        if best.evidence - idle.evidence > found.threshold:
-            break
-        best = idle
-        challenged = _all_challenged(found.problem, best, listed)
-    places = tuple(Place(without, tuple(rivals)) for without, rivals in challenged)
-    return standing_in(found, Contest(best, places))
+        best, without = champion, without_each(problem, champion)
+        challenged = _challenged(problem, best, without, listed)
+    told, without = needed(problem, best, without, found.threshold)
+    if told is not best:
+        challenged = _challenged(problem, told, without, listed)
+    pairs = zip(without, challenged, strict=True)
+    places = tuple(Place(bare, tuple(rivals)) for bare, rivals in pairs)
+    return standing_in(found, Contest(told, places))
 
 
 def _pays(found: Found, bare: Rival, rival: Rival) -> bool:
@@ -110,20 +109,20 @@ def standing_in(found: Found, told: Contest) -> Contest:
     return Contest(best, tuple(places))
 
 
-def _all_challenged(
-    problem: Problem, best: Rival, listed: Sequence[Candidate]
-) -> list[tuple[Rival, list[Rival]]]:
-    without = without_each(problem, best)
+def _challenged(
+    problem: Problem,
+    best: Rival,
+    without: Sequence[Rival],
+    listed: Sequence[Candidate],
+) -> list[list[Rival]]:
+    """Give the best with each of its strongest rivals, by the place they take."""
     others = [one for one in listed if one.name not in best.names]
     starts = [
         _challengers(problem, bare, index, others) for index, bare in enumerate(without)
     ]
     # All at once, for places may have few.
     rivals = iter(fitted(problem, [start for own in starts for start in own]))
-    return [
-        (bare, list(islice(rivals, len(own))))
-        for bare, own in zip(without, starts, strict=True)
-    ]
+    return [list(islice(rivals, len(own))) for own in starts]
 
 
 def _margin(closed: float, excess: float) -> float:
@@ -175,10 +174,19 @@ def _challengers(
 
 
 def needed(
-    problem: Problem, told: Rival, threshold: float
+    problem: Problem, told: Rival, without: tuple[Rival, ...], threshold: float
 ) -> tuple[Rival, tuple[Rival, ...]]:
-    """Drop what is idle beside the rest, and give it without each that is not."""
-    without = without_each(problem, told)
+    """Drop what is idle beside the rest, and give it without each that is not.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    told, without
+        An explanation, and it without each of its candidates.
+    threshold
+        Gain up to which one is idle. [nat]
+    """
     while len(told.candidates) > 1:
         idle = max(without, key=lambda one: one.evidence)
         if told.evidence - idle.evidence > threshold:
