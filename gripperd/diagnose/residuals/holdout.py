@@ -15,6 +15,7 @@ import numpy as np
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.quiet import HELD
 from gripperd.diagnose.residuals.sticking import PRESSED
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -23,8 +24,6 @@ SHARE = 0.2
 """Of the sweeps that can be spared. [-]"""
 FEW = 5
 """With fewer sweeps none can be spared: the end of each is left out instead."""
-HELD = 0.03
-"""Within this share of the highest command or pressure a sweep is a hold. [-]"""
 TAIL = 0.25
 """Part of a sweep that is left out then. [-]"""
 FEW_JAWS = 3

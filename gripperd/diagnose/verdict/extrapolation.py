@@ -7,7 +7,7 @@ import numpy as np
 
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
-from gripperd.diagnose.residuals.holdout import Split
+from gripperd.diagnose.residuals.holdout import MARGIN, Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.regressors import level
@@ -16,8 +16,6 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
 CONDITIONS = ("current", "pressure", "contraction", "temperature", "rate")
-MARGIN = 0.02
-"""Of the range that was searched. [-]"""
 TAILS = (0.01, 0.99)
 """Quantiles that stand for the ends of a sweep: a single sample is noise."""
 

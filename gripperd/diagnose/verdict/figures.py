@@ -3,10 +3,9 @@
 from collections.abc import Sequence
 from math import floor, inf, log10
 
+from gripperd.diagnose.verdict.key import DIGITS
 from gripperd.diagnose.verdict.named import Estimate
 
-DIGITS = 6
-"""Significant digits that no number is told beyond."""
 UNLIKELY = 1e-99
 """Chance below which its size says nothing any more. [-]"""
 
