@@ -23,13 +23,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.search.selection import Progress, Selection, selected
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.conclude import (
-    Conclusion,
-    Verdict,
-    conclude,
-    not_confirmed,
-    unusable,
-)
+from gripperd.diagnose.verdict.conclude import Verdict, conclude, not_confirmed
 from gripperd.diagnose.verdict.extrapolation import (
     Extrapolation,
     apart,
@@ -82,7 +76,6 @@ class Diagnosis:
     split: Split
     found: Found
     contest: Contest
-    conclusion: Conclusion
 
     @property
     def nominal(self) -> Point:
@@ -212,7 +205,6 @@ def _judged(
         split=parts,
         found=found,
         contest=best,
-        conclusion=conclusion,
     )
 
 
@@ -243,7 +235,6 @@ def _without_verdict(
         split=parts,
         found=Found(parts.train, null, null, (), 0.0, {}, (), np.empty(0)),
         contest=Contest(null),
-        conclusion=unusable(),
     )
 
 

@@ -85,11 +85,6 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     return Conclusion(verdict, after, share, before, louder)
 
 
-def unusable() -> Conclusion:
-    """Give no verdict on a recording that contradicts itself."""
-    return Conclusion(Verdict.UNUSABLE, (), 0.0)
-
-
 def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
     """Withdraw names that sweeps which took no part do not bear out.
 

@@ -9,7 +9,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.sleep import with_sleep
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.statement import statement
-from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.conclude import Verdict, conclude
 from gripperd.effects import EFFECTS
 from gripperd.model.effect import Signal
 from tests.diagnose.sleeping import NOISE, Spool, rounds, sleeps, sticks, stuck, trails
@@ -71,4 +71,4 @@ def test_what_lies_within_the_band_is_not_held_against_what_is_named() -> None:
     )
     residual = np.concatenate(told.split.train.residuals(told.explained))
     assert np.std(residual) > 2 * NOISE
-    assert told.conclusion.signals == ()
+    assert conclude(told.split.train, told.found, told.contest).signals == ()
