@@ -203,7 +203,7 @@ def test_everything_about_the_recording_is_passed_on(creep: Diagnosis) -> None:
         contradictions=(Contradiction(("a",), ("b",), "force_N", 12.5, "N", 2.0),),
         remarks=("column lbf is not read",),
     )
-    plan = Proposal(Kind.ISOBARIC, "separates A from B", "slow", {"t_s": [0, 9]}, 20.0)
+    plan = Proposal(Kind.ISOBARIC, "separates A from B", "slow", {"t_s": [0, 9]})
     said = written(replace(creep, recording=recording, proposal=plan))
     assert said["rejected_samples"] == [
         {"run": "step_0", "column": "current_mA", "count": 3, "reason": "under 3.6 mA"}

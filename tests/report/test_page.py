@@ -125,7 +125,7 @@ def test_an_open_question_comes_with_the_sweep_that_answers_it(
         "pressure_kPa": [0.0, 300.0],
         "contraction": [0.0, 0.0],
     }
-    proposal = Proposal(Kind.ISOMETRIC, "separates A from B", "slow sweep", plan, 30.0)
+    proposal = Proposal(Kind.ISOMETRIC, "separates A from B", "slow sweep", plan)
     rival = replace(creep.named[0], equivalents=("valve_lag",))
     text = written(
         replace(creep, verdict=Verdict.AMBIGUOUS, named=(rival,), proposal=proposal)

@@ -51,8 +51,6 @@ class Proposal:
     why: str
     title: str
     plan: Mapping[str, object]
-    separation: float
-    """Expected rise of chi² of the wrong rival. [-]"""
 
 
 def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
@@ -66,20 +64,20 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
         Two explanations of it.
     """
     names = f"{_title(one, other)} from {_title(other, one)}"
-    best: tuple[float, Sweep, float] | None = None
+    best: tuple[float, Sweep] | None = None
     for sweep in _sweeps(problem):
         gain = _separation(problem, sweep, one, other)
         rate = gain / float(sweep.time[-1])
         if gain > WORTH and (best is None or rate > best[0]):
-            best = rate, sweep, gain
+            best = rate, sweep
     if best is None:
         why = (
             f"no sweep of pressure and length tells {names}: measure one of them on"
             " its own, or check the sensors with a reference"
         )
-        return Proposal(None, why, "", {}, 0.0)
-    _, sweep, gain = best
-    return Proposal(sweep.kind, f"separates {names}", sweep.title, _plan(sweep), gain)
+        return Proposal(None, why, "", {})
+    _, sweep = best
+    return Proposal(sweep.kind, f"separates {names}", sweep.title, _plan(sweep))
 
 
 def _title(one: Rival, other: Rival) -> str:

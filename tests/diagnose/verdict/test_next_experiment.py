@@ -97,10 +97,6 @@ def test_it_says_what_it_separates(held: Proposal, looped: Proposal) -> None:
     assert looped.why == "separates coulomb friction from presliding hysteresis"
 
 
-def test_what_it_promises_is_beyond_chance(held: Proposal, looped: Proposal) -> None:
-    assert min(held.separation, looped.separation) > 9.0
-
-
 def test_the_plan_can_be_run_on_the_rig(held: Proposal, looped: Proposal) -> None:
     for found in (held, looped):
         time, pressure, contraction = (
@@ -135,7 +131,7 @@ def test_what_no_sweep_tells_apart_is_left_to_a_reference() -> None:
     one = _rival(problem, ForceSensorBias(bias=1.0))
     found = proposal(problem, one, one)
     assert found.kind is None
-    assert (found.plan, found.separation) == ({}, 0.0)
+    assert found.plan == {}
     assert "reference" in found.why
 
 
