@@ -39,8 +39,6 @@ class Member:
 
     candidate: Candidate
     columns: NDArray[np.intp]
-    scales: Array
-    """One coefficient of 1 in units of the amplitude's scale."""
 
 
 @dataclass(frozen=True)
@@ -109,13 +107,11 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
                 continue
             assert candidate.constant is not None
             response = slopes[candidate.constant]
-            column = build.add(response, FREED, 0.0, (-NUISANCE, NUISANCE))
-            columns, scales = [column], [FREED]
+            columns = [build.add(response, FREED, 0.0, (-NUISANCE, NUISANCE))]
         else:
-            columns, scales = _response(problem, point, candidate.effect, base, build)
+            columns = _response(problem, point, candidate.effect, base, build)
         if columns:
-            found = np.array(columns, dtype=np.intp), np.array(scales)
-            members.append(Member(candidate, *found))
+            members.append(Member(candidate, np.array(columns, np.intp)))
             names.add(candidate.name)
     faint = {one.name for one in listed} - names
     return Design(
@@ -127,7 +123,7 @@ def _acting(
     problem: Problem, point: Point, effect: Effect, base: Base, build: "_Builder"
 ) -> Member:
     known = parameters(effect)
-    columns, scales = [], []
+    columns = []
     names = amplitudes(effect)
     for name, response in zip(
         names, responses(problem, point, effect, base), strict=True
@@ -138,17 +134,14 @@ def _acting(
             bound / known[name].scale / prior for bound in limits(problem, effect, name)
         )
         columns.append(build.add(response, prior, start, (low, high)))
-        scales.append(prior)
-    return Member(
-        Candidate(effect.name, effect), np.array(columns, np.intp), np.array(scales)
-    )
+    return Member(Candidate(effect.name, effect), np.array(columns, np.intp))
 
 
 def _response(
     problem: Problem, point: Point, effect: Effect, base: Base, build: "_Builder"
-) -> tuple[list[int], list[float]]:
+) -> list[int]:
     known = parameters(effect)
-    columns, scales = [], []
+    columns = []
     names = amplitudes(effect) or [""]
     for name, response in zip(
         names, responses(problem, point, effect, base), strict=True
@@ -161,8 +154,7 @@ def _response(
             size = known[name].scale * prior
             low, high = (bound / size for bound in limits(problem, effect, name))
         columns.append(build.add(response, prior, 0.0, (low, high)))
-        scales.append(prior)
-    return columns, scales
+    return columns
 
 
 def problem_prior(

@@ -46,12 +46,21 @@ def _only(found: Design) -> Member:
     return member
 
 
+def _prior(problem: Problem, point: Point, candidate: Candidate) -> float:
+    assert candidate.effect is not None
+    (response,) = responses(problem, point, candidate.effect)
+    prior = problem_prior(problem, candidate.effect, response)
+    assert prior is not None
+    return prior
+
+
 def test_products_are_those_of_the_covariance_of_the_noise(
     blank: Problem, start: Point
 ) -> None:
     blank = undoubted(blank)
     found = design(blank, start, [BIAS])
     member = _only(found)
+    scale = 5.0 * _prior(blank, start, BIAS)
     products = found.gram.products[np.ix_(member.columns, member.columns)]
     moments = found.gram.moments[member.columns]
     law = blank.noises[Signal.FORCE]
@@ -60,7 +69,7 @@ def test_products_are_those_of_the_covariance_of_the_noise(
         blank.blocks, blank.times, blank.residuals(start), strict=True
     ):
         if block.signal is Signal.FORCE:
-            column = np.full(time.size, 5.0 * member.scales[0])
+            column = np.full(time.size, scale)
             seen = np.linalg.solve(covariance(time, law), column)
             expected += float(seen @ column)
             moment += float(seen @ left)
@@ -74,8 +83,7 @@ def test_one_prior_sigma_is_a_few_per_cent_of_full_scale(
     for candidate in (BIAS, RUB):
         assert candidate.effect is not None
         (response,) = responses(blank, start, candidate.effect)
-        prior = problem_prior(blank, candidate.effect, response)
-        assert prior is not None
+        prior = _prior(blank, start, candidate)
         force = np.concatenate(
             [
                 piece
@@ -96,8 +104,7 @@ def test_a_sensor_is_wrong_by_a_share_of_its_own_scale() -> None:
     assert BIAS.effect is not None
     start = Point(np.zeros(len(problem.constants)))
     (response,) = responses(problem, start, BIAS.effect)
-    prior = problem_prior(problem, BIAS.effect, response)
-    assert prior is not None
+    prior = _prior(problem, start, BIAS)
     place = next(i for i, b in enumerate(problem.blocks) if b.signal is Signal.FORCE)
     size = prior * float(np.max(response[place]))
     assert size == pytest.approx(0.04 * problem.full_scale[Signal.FORCE])
@@ -144,12 +151,14 @@ def test_every_amplitude_has_a_column(blank: Problem, start: Point) -> None:
 def test_what_acts_already_is_still_fitted(size: float) -> None:
     problem = problem_of(recording(rubbing(size)), MODEL, {})
     start = Point(np.zeros(len(problem.constants)))
-    there = start.with_effect(CoulombFriction(magnitude=12.0))
+    rub = CoulombFriction(magnitude=12.0)
+    there = start.with_effect(rub)
+    prior = _prior(problem, there, Candidate(rub.name, rub))
     found = design(problem, there, [BIAS])
     (acting,) = found.acting
     fit = found.fit()
     place = fit.columns.tolist().index(int(acting.columns[0]))
-    magnitude = fit.coefficients[place] * acting.scales[0] * 20.0
+    magnitude = fit.coefficients[place] * prior * 20.0
     assert magnitude == pytest.approx(size, abs=2.0)
 
 

@@ -36,7 +36,7 @@ def _design(columns: Array, target: Array, *, one_sided: bool) -> Design:
     if one_sided:
         low[NUISANCE:] = 0.0
     members = tuple(
-        Member(Candidate(f"{place}", None), np.array([place]), np.ones(1))
+        Member(Candidate(f"{place}", None), np.array([place]))
         for place in range(NUISANCE, NUISANCE + OTHERS)
     )
     nuisance = np.arange(NUISANCE, dtype=np.intp)
