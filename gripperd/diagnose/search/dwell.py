@@ -65,7 +65,7 @@ def dwelling(problem: Problem, point: Point, noise: Noise) -> Problem:
     return replace(problem, dwells=tuple(one._replace(noise=louder) for one in dwells))
 
 
-def misfit(problem: Problem, point: Point, signal: Signal = Signal.FORCE) -> float:
+def misfit(problem: Problem, point: Point, signal: Signal) -> float:
     """Chi² of the dwells of a signal, each about a level of its own."""
     residuals = problem.residuals(point)
     total = 0.0

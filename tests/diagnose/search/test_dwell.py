@@ -112,15 +112,17 @@ def test_what_moves_does_not_dwell(name: str, change: float, fewer: int) -> None
 
 
 def test_without_dwells_nothing_drifts() -> None:
-    assert drifted(_inflated(), START) == misfit(_inflated(), START) == 0.0
+    problem = _inflated()
+    assert drifted(problem, START) == 0.0
+    assert misfit(problem, START, Signal.FORCE) == 0.0
 
 
 def test_the_level_of_a_dwell_costs_little_and_its_drift_much() -> None:
     problem = dwelling(_inflated(), START, IDENTIFIED)
     count = len(problem.dwells)
-    base = misfit(problem, START)
-    levelled = misfit(_with(problem, lambda t: 0.0 * t + LEVEL), START)
-    drifting = misfit(_with(problem, lambda t: LEVEL * t / DWELL), START)
+    base = misfit(problem, START, Signal.FORCE)
+    levelled = misfit(_with(problem, lambda t: 0.0 * t + LEVEL), START, Signal.FORCE)
+    drifting = misfit(_with(problem, lambda t: LEVEL * t / DWELL), START, Signal.FORCE)
     # One sigma of the level each.
     assert levelled - base == pytest.approx(count, rel=0.5)
     assert drifting - base > 20 * count
@@ -171,4 +173,4 @@ def test_a_drift_is_told_from_a_level() -> None:
 def test_misfit_is_all_levels_here() -> None:
     problem = dwelling(_inflated(missed), START, IDENTIFIED)
     samples = sum(int(block.good.sum()) for block in problem.dwells)
-    assert misfit(problem, START) == pytest.approx(samples, rel=0.1)
+    assert misfit(problem, START, Signal.FORCE) == pytest.approx(samples, rel=0.1)
