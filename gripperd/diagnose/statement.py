@@ -10,7 +10,7 @@ from gripperd.diagnose.search.sleep import SLEEPS
 from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed, listed
-from gripperd.diagnose.verdict.key import key_of_constant, keys_of, plain, public
+from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, plain, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import recalibrated
 from gripperd.diagnose.verdict.where import Finding
@@ -107,7 +107,7 @@ def _corrected(diagnosis: Diagnosis, entry: Named) -> str:
     """
     assert entry.path is not None
     (estimate,) = entry.parameters.values()
-    key = key_of_constant(entry.path)
+    key = CONSTANTS[entry.path]
     nominal = next(
         one.nominal
         for one in diagnosis.found.problem.constants

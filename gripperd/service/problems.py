@@ -79,9 +79,6 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         ),
         "nothing-found": Kind(409, "It ended without a result", Category.PRECONDITION),
         "not-named": Kind(409, "There is nothing to accept", Category.PRECONDITION),
-        "not-in-model": Kind(
-            409, "A model file has no place for it", Category.PRECONDITION
-        ),
         "not-confirmed": Kind(
             409, "Data left out do not confirm it", Category.PRECONDITION
         ),

@@ -26,7 +26,6 @@ from gripperd.diagnose.verdict.key import (
     CONSTANTS,
     Key,
     keys_of,
-    public,
     rounded,
 )
 from gripperd.diagnose.verdict.named import Estimate, Named
@@ -66,8 +65,7 @@ def improvement(model: ModelFile, diagnosis: Diagnosis, program: str) -> Improve
     Raises
     ------
     Refused
-        Nothing was named, a model file has no place for it, or data that took no part
-        in the fit do not confirm it.
+        Nothing was named, or data that took no part in the fit do not confirm it.
     """
     _check_named(diagnosis)
     point = _kept(diagnosis)
@@ -114,10 +112,6 @@ def _check_named(diagnosis: Diagnosis) -> None:
         said = summary(diagnosis)
         message = f"nothing to apply, the verdict is {diagnosis.verdict}: {said}"
         raise Refused(message, code="not-named")
-    for entry in diagnosis.named:
-        if entry.path is not None and entry.path not in CONSTANTS:
-            message = f"{public(entry.name)} has no place in a model file"
-            raise Refused(message, code="not-in-model")
 
 
 def _kept(diagnosis: Diagnosis) -> Point:

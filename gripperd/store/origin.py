@@ -9,7 +9,7 @@ from gripperd.config.lineage import Added, Covariance, Gap, Recorded
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.diagnose.residuals.constants import Constant
-from gripperd.diagnose.verdict.key import key_of_constant, keys_of, public, rounded
+from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, public, rounded
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import Recalibrated, recalibrated
 
@@ -101,7 +101,7 @@ def _fitted(diagnosis: Diagnosis) -> tuple[list[str], list[int], list[float]]:
     constants = diagnosis.found.problem.constants
     names, places, scales = [], [], []
     for index in sorted(point.freed):
-        key = key_of_constant(constants[index].path)
+        key = CONSTANTS[constants[index].path]
         names.append(public(f"{WRONG}{constants[index].path}"))
         places.append(index)
         width = float(point.widths[index]) * constants[index].sigma

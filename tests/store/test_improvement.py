@@ -123,16 +123,3 @@ def test_what_held_out_data_do_not_confirm_is_refused(creep: Found) -> None:
     with pytest.raises(Refused, match="on data that took no part") as refused:
         improvement(model, replace(diagnosis, contest=contest), "0.1.0")
     assert refused.value.code == "not-confirmed"
-
-
-def test_what_no_model_file_can_say_is_refused(creep: Found) -> None:
-    model, diagnosis = creep
-    late = replace(
-        diagnosis.named[0],
-        name="parameter:skew.pressure",
-        effect=None,
-        path="skew.pressure",
-        parameters={"pressure": Estimate(0.02, 0.001)},
-    )
-    with pytest.raises(Refused, match=r"parameter:skew\.pressure_ms has no place"):
-        improvement(model, replace(diagnosis, named=(late,)), "0.1.0")

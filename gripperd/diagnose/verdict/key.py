@@ -78,23 +78,14 @@ CONSTANTS: Mapping[str, Key] = MappingProxyType(
         "response.valve": Key("valve_ms", "response time of the valve"),
     }
 )
-"""Keys of constants by their path. A skew has its own, see :func:`key_of_constant`."""
-
-
-def key_of_constant(path: str) -> Key:
-    """Key of a constant, by its path in a fit, such as ``muscle.diameter``."""
-    if path in CONSTANTS:
-        return CONSTANTS[path]
-    owner, _, name = path.partition(".")
-    if owner == "skew":
-        return Key(f"{name}_ms", f"lead of the {name} channel over the others")
-    return Key(name, f"sign of dry friction in sweep {name}")
+"""Keys by the path of a constant in a fit. Zeros and leads of the sensors, and signs of
+friction, have none: they are nuisances, and never a candidate."""
 
 
 def keys_of(entry: Named) -> dict[str, Key]:
     """Keys of everything fitted of an effect or a constant, by its name inside."""
     if entry.path is not None:
-        return dict.fromkeys(entry.parameters, key_of_constant(entry.path))
+        return dict.fromkeys(entry.parameters, CONSTANTS[entry.path])
     assert entry.effect is not None
     return {
         name: Key(f"{name}_{known.unit}" if known.unit else name, name)
@@ -112,7 +103,7 @@ def public(name: str) -> str:
     if not name.startswith(WRONG):
         return name
     path = name.removeprefix(WRONG)
-    return f"{WRONG}{path.partition('.')[0]}.{key_of_constant(path).text}"
+    return f"{WRONG}{path.partition('.')[0]}.{CONSTANTS[path].text}"
 
 
 def plain(name: str) -> str:
@@ -122,7 +113,7 @@ def plain(name: str) -> str:
     ('a wrong diameter', 'valve lag')
     """
     if name.startswith(WRONG):
-        return f"a wrong {key_of_constant(name.removeprefix(WRONG)).title}"
+        return f"a wrong {CONSTANTS[name.removeprefix(WRONG)].title}"
     return name.replace("_", " ")
 
 
