@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from gripperd.diagnose.fit.candidates import Candidate
-from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.inflation import deflated
 from gripperd.diagnose.fit.polish import Polished, polished

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.polish import Polished
 from gripperd.diagnose.noise.drift import Quiet, hold
 from gripperd.diagnose.noise.model import Noise

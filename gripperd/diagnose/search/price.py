@@ -7,7 +7,7 @@ import numpy as np
 
 from gripperd.diagnose.fit.bending import bendable, bent
 from gripperd.diagnose.fit.candidates import Candidate, is_exact
-from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem

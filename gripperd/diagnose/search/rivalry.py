@@ -7,7 +7,7 @@ from itertools import islice
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
-from gripperd.diagnose.fit.crossing import bears_out
+from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
 from gripperd.diagnose.residuals.point import Point

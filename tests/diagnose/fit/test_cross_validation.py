@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.diagnose.fit.crossing import bears_out, foretold
+from gripperd.diagnose.fit.cross_validation import bears_out, foretold
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
