@@ -23,6 +23,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.search.selection import Progress, Selection, selected
 from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.artefact import artefact
 from gripperd.diagnose.verdict.conclude import Verdict, conclude, not_confirmed
 from gripperd.diagnose.verdict.extrapolation import (
     Extrapolation,
@@ -30,7 +31,6 @@ from gripperd.diagnose.verdict.extrapolation import (
     extrapolation,
     swept,
 )
-from gripperd.diagnose.verdict.foil import foil
 from gripperd.diagnose.verdict.gap import Gap, gaps
 from gripperd.diagnose.verdict.judged import (
     bearing_signal,
@@ -156,7 +156,7 @@ def _judged(
     # The noise of a table is not known, so what is left cannot be held against it.
     judge = found.problem if is_table(train.courses) else train
     conclusion = conclude(judge, found, best)
-    foiled = foil(found, best)
+    imitated = artefact(found, best)
     start, base, nearest = (
         with_own_sign(parts, point)
         for point in (
@@ -175,9 +175,9 @@ def _judged(
     bearing = bearing_signal(train, best, main, judged)
     gap = judged[bearing] if bearing else None
     spoilt = any(one.is_spoilt for one in judged.values())
-    against = foiled or spoilt or refuted(parts, inside, found, best)
+    against = imitated or spoilt or refuted(parts, inside, found, best)
     if against or (gap and not gap.confirms(effects)):
-        is_open = bool(foiled) or (gap is not None and gap.is_open)
+        is_open = bool(imitated) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
@@ -198,7 +198,7 @@ def _judged(
         held_out=swept(parts, inside),
         extrapolation=extrapolation(parts, outside, points, seed),
         proposal=None if nothing else _next(found.problem, best),
-        signature=signature(train, best, conclusion, foiled) if unexplained else (),
+        signature=signature(train, best, conclusion, imitated) if unexplained else (),
         corrections=tuple(offers(parts, left, base, nearest)) if unexplained else (),
         untested=untested | dict.fromkeys(found.faint, "leaves no trace here"),
         seed=seed,

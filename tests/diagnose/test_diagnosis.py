@@ -14,8 +14,8 @@ from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.artefact import Jump
 from gripperd.diagnose.verdict.conclude import Verdict, conclude
-from gripperd.diagnose.verdict.foil import Jump
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.effects import EFFECTS
 from gripperd.errors import InputError
@@ -410,7 +410,7 @@ def test_where_something_slipped_it_is_never_nothing(
     """Less is left than would be seen, but a jump explains it better than a name."""
     monkeypatch.setattr(Gap, "is_open", False)
     slip = Jump(size=-4.0, at=200.0)
-    monkeypatch.setattr("gripperd.diagnose.diagnosis.foil", lambda *_: slip)
+    monkeypatch.setattr("gripperd.diagnose.diagnosis.artefact", lambda *_: slip)
     weak = recording(threshold(6.0), noise=0.1)
     found = diagnose(weak, MODEL, {}, {name: EFFECTS[name] for name in FEW})
     assert found.verdict is Verdict.UNEXPLAINED

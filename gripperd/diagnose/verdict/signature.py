@@ -2,8 +2,8 @@
 
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.artefact import Artefact
 from gripperd.diagnose.verdict.conclude import Conclusion
-from gripperd.diagnose.verdict.foil import Foil
 from gripperd.diagnose.verdict.key import plain
 from gripperd.diagnose.verdict.structure import Structure
 from gripperd.model.effect import Signal
@@ -15,16 +15,19 @@ LINE = 0.5
 
 
 def signature(
-    problem: Problem, best: Contest, conclusion: Conclusion, foil: Foil | None = None
+    problem: Problem,
+    best: Contest,
+    conclusion: Conclusion,
+    artefact: Artefact | None = None,
 ) -> tuple[str, ...]:
     """Describe what is left, most telling first."""
     words = [f"share of the gap that known effects explain: {conclusion.share:.0%}"]
     if best.best.names:
         nearest = ", ".join(map(plain, best.best.names))
         words.append(f"nearest known effects: {nearest}")
-    if foil:
+    if artefact:
         # By the clock of the file, as everything else that is told of it.
-        words.append(f"force: {foil.told(problem.courses[0].start)}")
+        words.append(f"force: {artefact.told(problem.courses[0].start)}")
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)

@@ -6,8 +6,8 @@ from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rivalry import Contest, Place
+from gripperd.diagnose.verdict.artefact import Jump
 from gripperd.diagnose.verdict.conclude import Conclusion, Verdict
-from gripperd.diagnose.verdict.foil import Jump
 from gripperd.diagnose.verdict.signature import signature
 from gripperd.diagnose.verdict.structure import Structure
 from gripperd.model.effect import Signal

@@ -9,7 +9,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rivalry import contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.foil import Foil, Jump, Snap, WarmCell, foil
+from gripperd.diagnose.verdict.artefact import Artefact, Jump, Snap, WarmCell, artefact
 from gripperd.effects.fatigue import Fatigue
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
 from gripperd.effects.temperature_stiffness import TemperatureStiffness
@@ -40,11 +40,11 @@ def _drifted(moment: Moment) -> Array:
 
 def _seen(
     told: Recording, named: Effect = DRIFT, *also_open: str
-) -> tuple[Problem, Foil | None]:
+) -> tuple[Problem, Artefact | None]:
     problem = pinned(problem_of(told, MODEL, {}), *OPEN, *also_open)
     listed = (Candidate(named.name, named),)
     found = search(problem, listed, np.random.default_rng(0))
-    return problem, foil(found, contest(found, listed))
+    return problem, artefact(found, contest(found, listed))
 
 
 def test_a_mount_that_slipped_once_is_no_drift() -> None:
@@ -86,7 +86,7 @@ def test_the_truth_behind_a_jump_is_the_reading_without_it() -> None:
 
 def test_what_sensors_drift_is_no_jump(monkeypatch: pytest.MonkeyPatch) -> None:
     # Were it usual that sensors drift by 60 of the 1200 N.
-    monkeypatch.setattr("gripperd.diagnose.verdict.foil.SEEN", 0.05)
+    monkeypatch.setattr("gripperd.diagnose.verdict.artefact.SEEN", 0.05)
     assert _seen(recording(_slipped))[1] is None
 
 

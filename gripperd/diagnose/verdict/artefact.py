@@ -1,7 +1,7 @@
-"""What no library holds, but an effect of it may imitate.
+"""Artefacts: no effects of the library, but what looks like one.
 
-A foil is fitted as an effect is. It is never named; an explanation that it beats is not
-believed either.
+An artefact is fitted as an effect is. It is never named; an explanation that it beats
+is not believed either.
 """
 
 from abc import ABC, abstractmethod
@@ -121,11 +121,14 @@ class Snap(InMuscle):
         return f"{way} by {abs(self.loss):.1%} of the ideal pull {at}"
 
 
-Foil: TypeAlias = Jump | WarmCell | Snap
+Artefact: TypeAlias = Jump | WarmCell | Snap
 
 
-def foil(found: Found, best: Contest) -> Foil | None:
-    """Give the foil that explains more than the best, if one does.
+def artefact(found: Found, best: Contest) -> Artefact | None:
+    """Give the artefact that explains more than the best, if one does.
+
+    One that is no larger than sensors drift is a drift. Where no name acts on the
+    force, nothing could be taken for one.
 
     Parameters
     ----------
@@ -135,7 +138,7 @@ def foil(found: Found, best: Contest) -> Foil | None:
     problem, named = found.problem, best.best.candidates
     if not any(Signal.FORCE in acts_on(problem, one) for one in named):
         return None
-    listed = [Candidate(one.name, one) for one in _foils(problem)]
+    listed = [Candidate(one.name, one) for one in _artefacts(problem)]
     around = design(problem, found.null.fit.point, listed)
     gains = {one: around.fit(one).evidence for one in around.members}
     if not gains:
@@ -146,12 +149,11 @@ def foil(found: Found, best: Contest) -> Foil | None:
     if told.evidence - np.log(len(listed)) <= best.best.evidence:
         return None
     (seen,) = told.fit.point.effects
-    assert isinstance(seen, Foil)
-    # What is no more than sensors drift is a drift.
+    assert isinstance(seen, Artefact)
     return seen if size_of(problem, told, [seen.name], [Signal.FORCE]) > SEEN else None
 
 
-def _foils(problem: Problem) -> Iterator[Foil]:
+def _artefacts(problem: Problem) -> Iterator[Artefact]:
     if any(np.isfinite(c.level("temperature")).any() for c in problem.courses):
         yield WarmCell(rate=0.5)
     spans = sorted(
