@@ -8,7 +8,6 @@ import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.holdout import Split
-from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.reading import as_read
@@ -18,6 +17,7 @@ from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.search.stiction import with_stiction
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
+from gripperd.diagnose.search.transient import with_transients
 
 Progress: TypeAlias = Callable[[str, float], None]
 """Told what is being done, and the share that is done. [0..1]"""
@@ -73,6 +73,6 @@ def selected(
         best = with_other_length(train, best, listed, rng)
     best = with_overstepped(found, best, listed)
     best = with_usual_tolerances(found, best)
-    found, best = with_aftermath(found, best, listed, train.noises)
+    found, best = with_transients(found, best, listed, train.noises)
     best = with_stiction(found, best)
     return Selection(replace(parts, train=train, test=test), found, best)

@@ -11,13 +11,13 @@ from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search import aftermath
-from gripperd.diagnose.search.aftermath import with_aftermath
+from gripperd.diagnose.search import transient
 from gripperd.diagnose.search.answer import answering
 from gripperd.diagnose.search.dwell import misfit
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest, Place, contest
 from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.search.transient import with_transients
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.valve_lag import ValveLag
@@ -93,7 +93,7 @@ def _ended(recording: Recording) -> tuple[Found, Contest]:
 
 def _told(found: Found, best: Contest) -> tuple[Found, Contest]:
     noises = _problem(_recording(0.0, 0.01)).noises
-    return with_aftermath(found, best, (*OFFSET, *LATE), noises)
+    return with_transients(found, best, (*OFFSET, *LATE), noises)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_what_other_sweeps_foretell_goes_first(monkeypatch: pytest.MonkeyPatch) 
         return any(isinstance(effect, ChannelDelay) for effect in fit.point.effects)
 
     found, best = _ended(_recording(0.04, 0.02))
-    monkeypatch.setattr(aftermath, "bears_out", late)
+    monkeypatch.setattr(transient, "bears_out", late)
     assert _told(found, best)[1].best.names == ("valve_offset", "channel_delay")
 
 

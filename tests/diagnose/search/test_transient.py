@@ -8,10 +8,10 @@ from gripperd.diagnose.fit.candidates import Candidate, forms
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.search import dwell, price
-from gripperd.diagnose.search.aftermath import with_aftermath
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import SURE, Contest, Place, contest
 from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.search.transient import with_transients
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
@@ -46,7 +46,7 @@ def _ended(
 
 def _told(found: Found, best: Contest) -> tuple[Found, Contest]:
     noises = stepped.problem(missed).noises
-    return with_aftermath(found, best, (*LEVELS, *LATE), noises)
+    return with_transients(found, best, (*LEVELS, *LATE), noises)
 
 
 def _drifting(moment: Moment) -> Array:
@@ -155,7 +155,7 @@ def test_two_are_added_at_most() -> None:
     found, best = _ended(threshold(60.0), creeping(0.04), _stiff, listed=LEVELS[1:])
     rubber = [Candidate("nonlinear_elasticity", f) for f in forms(NonlinearElasticity)]
     noises = stepped.problem(missed).noises
-    _, told = with_aftermath(found, best, (*LEVELS, *LATE, *rubber), noises)
+    _, told = with_transients(found, best, (*LEVELS, *LATE, *rubber), noises)
     assert best.best.names == ("force_sensor_bias",)
     assert told.best.names == ("force_sensor_bias", "nonlinear_elasticity", "creep")
 
@@ -223,7 +223,7 @@ def test_without_dwells_nothing_is_told() -> None:
     found = search(problem, LEVELS, np.random.default_rng(0))
     assert found.problem.inflation([Signal.FORCE]) > 1
     best = contest(found, LEVELS)
-    assert with_aftermath(found, best, (*LEVELS, *LATE), problem.noises) == (
+    assert with_transients(found, best, (*LEVELS, *LATE), problem.noises) == (
         found,
         best,
     )

@@ -1,4 +1,8 @@
-"""What goes on after a step, far below what a model misses, and what explains it."""
+"""Transients: what goes on after a step, far below what a model misses, and its causes.
+
+A transient is held against the noise about a level of its own, for the level is what a
+model misses.
+"""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -35,7 +39,7 @@ FORMS = 4
 """Forms of one cause that are: between a dead time and a lag lies a ridge."""
 
 
-class Aftermath(NamedTuple):
+class Transient(NamedTuple):
     """What a signal does after a step, and what may explain it."""
 
     signal: Signal
@@ -46,17 +50,17 @@ class Aftermath(NamedTuple):
     """Whether enough of it is gone from one fit to the next."""
 
 
-AFTERMATHS = (
-    Aftermath(
+TRANSIENTS = (
+    Transient(
         Signal.FORCE, frozenset({"creep", "force_sensor_drift"}), dwelling, stilled
     ),
-    Aftermath(
+    Transient(
         Signal.PRESSURE, frozenset({"valve_lag", "channel_delay"}), answering, answered
     ),
 )
 
 
-def with_aftermath(
+def with_transients(
     found: Found,
     best: Contest,
     listed: Sequence[Candidate],
@@ -77,14 +81,19 @@ def with_aftermath(
         What could be missing.
     noises
         Of each signal, as identified. [SI]
+
+    Returns
+    -------
+    The search, with the noise and the stretches that transients are judged by, and its
+    outcome; both as they came where no transient tells anything.
     """
-    for kind in AFTERMATHS:
+    for kind in TRANSIENTS:
         found, best = _with(kind, found, best, listed, noises)
     return found, best
 
 
 def _with(
-    kind: Aftermath,
+    kind: Transient,
     found: Found,
     best: Contest,
     listed: Sequence[Candidate],
@@ -136,7 +145,7 @@ def _with(
 
 
 def _grown(
-    kind: Aftermath, problem: Problem, here: Rival, listed: Sequence[Candidate]
+    kind: Transient, problem: Problem, here: Rival, listed: Sequence[Candidate]
 ) -> tuple[list[Rival], list[Rival]]:
     """Give it with each cause that it lacks, and with the leading others."""
     around = design(problem, here.fit.point, listed)
@@ -159,7 +168,7 @@ def _first_forms(rivals: Iterable[Rival]) -> list[Rival]:
     return list(found.values())
 
 
-def _is_cause(kind: Aftermath, candidate: Candidate) -> bool:
+def _is_cause(kind: Transient, candidate: Candidate) -> bool:
     """Whether a candidate may be why the signal goes on changing."""
     effect = candidate.effect
     named = candidate.name in kind.causes
@@ -172,7 +181,7 @@ def _fitted(problem: Problem, here: Rival, more: Sequence[Member]) -> list[Rival
     return sorted(found, key=lambda rival: -rival.evidence)
 
 
-def _accounts(kind: Aftermath, problem: Problem, here: Rival, larger: Rival) -> bool:
+def _accounts(kind: Transient, problem: Problem, here: Rival, larger: Rival) -> bool:
     """Whether the dwells tell a cause, and much of what they do is gone with it.
 
     One that has but the levels to explain lets the dwells drift as before, or more. One
@@ -189,7 +198,7 @@ def _accounts(kind: Aftermath, problem: Problem, here: Rival, larger: Rival) -> 
 
 
 def _takes_its_share(
-    kind: Aftermath, problem: Problem, here: Rival, larger: Rival
+    kind: Transient, problem: Problem, here: Rival, larger: Rival
 ) -> bool:
     """Whether an effect takes much of what is left of the signal beside the dwells."""
     before, after = (
