@@ -17,7 +17,6 @@ from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.answer import answered, answering
 from gripperd.diagnose.search.dwell import dwelling, misfit, stilled
 from gripperd.diagnose.search.finalists import leaders
 from gripperd.diagnose.search.found import Found
@@ -31,6 +30,7 @@ from gripperd.diagnose.search.rivalry import (
     removed,
     without_each,
 )
+from gripperd.diagnose.search.step_response import closes_responses, with_responses
 from gripperd.model.effect import Signal
 
 NEXT = 2
@@ -55,7 +55,10 @@ TRANSIENTS = (
         Signal.FORCE, frozenset({"creep", "force_sensor_drift"}), dwelling, stilled
     ),
     Transient(
-        Signal.PRESSURE, frozenset({"valve_lag", "channel_delay"}), answering, answered
+        Signal.PRESSURE,
+        frozenset({"valve_lag", "channel_delay"}),
+        with_responses,
+        closes_responses,
     ),
 )
 

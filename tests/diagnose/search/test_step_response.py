@@ -12,10 +12,10 @@ from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search import transient
-from gripperd.diagnose.search.answer import answering
 from gripperd.diagnose.search.dwell import misfit
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest, Place, contest
+from gripperd.diagnose.search.step_response import with_responses
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.search.transient import with_transients
 from gripperd.diagnose.setup import problem_of
@@ -78,7 +78,7 @@ def _recording(dead_time: float, time: float, dwell: float = DWELL) -> Recording
         }
         current = np.asarray(REGULATOR.current(asked))
         runs.append(Run(f"{place}", {"time": clock, "current": current, **read}))
-    return Recording("answers", "0" * 64, tuple(runs))
+    return Recording("responses", "0" * 64, tuple(runs))
 
 
 def _problem(recording: Recording) -> Problem:
@@ -161,7 +161,7 @@ def test_near_the_noise_answers_are_not_asked() -> None:
 
 def test_an_answer_lasts_from_the_row_before_a_command_for_a_second() -> None:
     plain = _problem(_recording(0.1, 0.02))
-    problem = answering(plain, START, plain.noises[Signal.PRESSURE])
+    problem = with_responses(plain, START, plain.noises[Signal.PRESSURE])
     assert len(problem.dwells) == len(LENGTHS) * len(PRESSURES) * 3
     for number, block in enumerate(problem.dwells):
         assert block.signal is Signal.PRESSURE
@@ -174,10 +174,10 @@ def test_an_answer_lasts_from_the_row_before_a_command_for_a_second() -> None:
 
 def test_answers_are_as_loud_as_what_is_left_about_their_level() -> None:
     plain = _problem(_recording(0.1, 0.02))
-    problem = answering(plain, START, plain.noises[Signal.PRESSURE])
+    problem = with_responses(plain, START, plain.noises[Signal.PRESSURE])
     samples = sum(int(block.good.sum()) for block in problem.dwells)
     assert 0.3 * samples < misfit(problem, START, Signal.PRESSURE) < samples
-    # Were every level off by another 10 kPa, no answer would be worse for it.
+    # Were every level off by another 10 kPa, no response would be worse for it.
     courses = tuple(
         replace(c, measured={**c.measured, "pressure": c.measured["pressure"] + 10e3})
         for c in problem.courses
@@ -197,7 +197,7 @@ def test_answers_are_as_loud_as_what_is_left_about_their_level() -> None:
 def test_ramps_have_no_answers() -> None:
     ramps = _problem(small.recording(nothing))
     noise = ramps.noises[Signal.PRESSURE]
-    assert answering(ramps, START, noise) is ramps
+    assert with_responses(ramps, START, noise) is ramps
 
 
 def test_four_answers_are_too_few() -> None:
@@ -207,11 +207,11 @@ def test_four_answers_are_too_few() -> None:
         for i, c in enumerate(plain.courses)
     ))  # fmt: skip
     noise = plain.noises[Signal.PRESSURE]
-    assert answering(once, START, noise) is once
+    assert with_responses(once, START, noise) is once
 
 
 def _answers(plain: Problem) -> tuple[Block, ...]:
-    return answering(plain, START, plain.noises[Signal.PRESSURE]).dwells
+    return with_responses(plain, START, plain.noises[Signal.PRESSURE]).dwells
 
 
 def test_a_command_that_rests_less_than_a_second_has_no_answer() -> None:

@@ -1,4 +1,4 @@
-"""Answers: how the pressure follows each step of the command, about its own level.
+"""Step responses: how the pressure follows the command, each about a level of its own.
 
 Right after a step no two sensors see the same instant, so elsewhere those samples are
 passed over. But a regulator is slow by more than that, and only there does it show.
@@ -19,7 +19,7 @@ from gripperd.diagnose.search.price import PHANTOM
 from gripperd.model.effect import Signal
 
 STEADY = 1e4
-"""Time in which the level of an answer forgets: it stays. [s]"""
+"""Time in which the level of a response forgets: it stays. [s]"""
 RESPONDS = "response.valve"
 """Constant by which a regulator is late, as one lag."""
 
@@ -30,59 +30,66 @@ TRIED = 4
 """Response times up to that which are tried."""
 
 
-def answering(problem: Problem, point: Point, noise: Noise) -> Problem:
-    """Give the problem with the answers to steps, if there are enough.
+def with_responses(problem: Problem, point: Point, noise: Noise) -> Problem:
+    """Give the problem with the responses to steps, if there are enough.
 
     Parameters
     ----------
     problem
         With the noise as loud as the misfit.
     point
-        The best explanation; what it leaves of the answers tells how loud they are.
+        The best explanation; what it leaves of the responses tells how loud they are.
     noise
         Of the pressure, as identified. [Pa]
+
+    Returns
+    -------
+    The problem with a block for each response, last; as it came with fewer than
+    :data:`FEW` of them.
     """
-    answers = tuple(_answers(problem))
-    if len(answers) < FEW:
+    responses = tuple(_responses(problem))
+    if len(responses) < FEW:
         return problem
     level = problem.noises[Signal.PRESSURE].std
-    loudness = _loudness(replace(problem, dwells=answers), point)
-    own = Noise(max(loudness, noise.std), 0.0, level, STEADY)
-    louder = (answer._replace(noise=own) for answer in answers)
+    left = _rms(replace(problem, dwells=responses), point)
+    own = Noise(max(left, noise.std), 0.0, level, STEADY)
+    louder = (response._replace(noise=own) for response in responses)
     return replace(problem, dwells=(*problem.dwells, *louder))
 
 
-def _loudness(problem: Problem, point: Point) -> float:
-    """Root mean square of what an explanation leaves of the answers. [Pa]."""
+def _rms(problem: Problem, point: Point) -> float:
+    """Root mean square of what an explanation leaves of the responses. [Pa]."""
     left = np.concatenate(problem.residuals(point)[-len(problem.dwells) :])
     return float(np.mean(left**2) ** 0.5)
 
 
-def answered(problem: Problem, before: Polished, after: Polished) -> bool:
+def closes_responses(problem: Problem, before: Polished, after: Polished) -> bool:
     """Whether an explanation closes much that a quick regulator would not.
 
-    All answers have one law of a few numbers; none has to be left out to try it.
+    All responses have one law of a few numbers; none has to be left out to try it.
+    What counts is what a cause closes beyond any regulator as quick as :data:`QUICK`,
+    as a share of what one without any lag leaves.
 
     Parameters
     ----------
     problem
-        With answers.
+        With responses.
     before, after
-        Without and with a cause of slow answers.
+        Without and with a cause of slow responses.
     """
     place = [constant.path for constant in problem.constants].index(RESPONDS)
     slow = problem.constants[place]
     quick = []
-    for response in np.linspace(0.0, QUICK, TRIED):
+    for lag in np.linspace(0.0, QUICK, TRIED):
         shifts = before.point.shifts.copy()
-        shifts[place] = (response - slow.nominal) / slow.sigma
+        shifts[place] = (lag - slow.nominal) / slow.sigma
         quick.append(_left(problem, replace(before.point, shifts=shifts)))
     at_once = quick[0]
     return min(quick) - _left(problem, after.point) > PHANTOM * at_once
 
 
 def _left(problem: Problem, point: Point) -> float:
-    """Chi² of the answers, with each command from its own row on or from the next.
+    """Chi² of the responses, with each command from its own row on or from the next.
 
     A recorder may write a command before or after it is sent.
     """
@@ -97,7 +104,7 @@ def _left(problem: Problem, point: Point) -> float:
     return min(rows)
 
 
-def _answers(problem: Problem) -> Iterator[Block]:
+def _responses(problem: Problem) -> Iterator[Block]:
     """From the row before each command to a second after it, if it rests so long."""
     for block in problem.blocks:
         if block.signal is not Signal.PRESSURE:
