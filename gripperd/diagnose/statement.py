@@ -6,7 +6,7 @@ from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.objection import contradicted
 from gripperd.diagnose.readings.columns import BY_QUANTITY
-from gripperd.diagnose.search.sleep import SLEEPS
+from gripperd.diagnose.search.dead_band import DEAD_BAND
 from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed, listed
@@ -78,7 +78,7 @@ def _effect(entry: Named) -> str:
 def _shown(diagnosis: Diagnosis, entry: Named) -> str:
     if entry.effect is None:
         return ""
-    beside = f"{_held(diagnosis, entry)}{_asleep(diagnosis, entry)}"
+    beside = f"{_held(diagnosis, entry)}{_in_band(diagnosis, entry)}"
     return f": {entry.effect.shows}{beside}"
 
 
@@ -90,9 +90,9 @@ def _held(diagnosis: Diagnosis, entry: Named) -> str:
     return f"; what rests it holds up to {1 + more:.1f} times as much here"
 
 
-def _asleep(diagnosis: Diagnosis, entry: Named) -> str:
+def _in_band(diagnosis: Diagnosis, entry: Named) -> str:
     """Say that a band is all that is known of where a regulator sleeps."""
-    if entry.name != SLEEPS or not diagnosis.found.problem.band:
+    if entry.name != DEAD_BAND or not diagnosis.found.problem.band:
         return ""
     return (
         "; it sleeps inside that band, moves in stairs, and nothing foretells where"

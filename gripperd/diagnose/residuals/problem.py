@@ -10,9 +10,9 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.whitening import Law, innovations, law_of
 from gripperd.diagnose.readings.course import Course, joined
 from gripperd.diagnose.readings.fault import Mask
-from gripperd.diagnose.residuals.asleep import asleep
 from gripperd.diagnose.residuals.block import Block, Group
 from gripperd.diagnose.residuals.constants import NUISANCE, Constant, moved
+from gripperd.diagnose.residuals.dead_band import within_band
 from gripperd.diagnose.residuals.doubt import own_shares
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.point import Point
@@ -67,12 +67,12 @@ class Problem:
         return (*found, *self.dwells)
 
     def _resting(self, block: Block) -> Block:
-        """Give the noise of a sleep to the pressures of a regulator that sleeps."""
+        """Give pressures the noise of a regulator that sleeps in its dead band."""
         regulator = self.model.regulator
         if block.signal is not Signal.PRESSURE or regulator is None or not self.band:
             return block
         noise, course = self.noises[block.signal], self.courses[block.course]
-        return asleep(block, course, regulator, noise, self.band)
+        return within_band(block, course, regulator, noise, self.band)
 
     def _has_part(self, signal: Signal) -> bool:
         if signal is Signal.PRESSURE:

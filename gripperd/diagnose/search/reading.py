@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.dead_band import with_dead_band
 from gripperd.diagnose.search.resting import with_resting_sign
 from gripperd.diagnose.search.shut import with_valve_shut
-from gripperd.diagnose.search.sleep import with_sleep
 
 
 def as_read(problem: Problem, listed: Sequence[Candidate]) -> Problem:
@@ -15,6 +15,6 @@ def as_read(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     Which way friction acts at rest, whether the regulator sleeps within a band, and
     which holds its valve was shut in.
     """
-    for reading in (with_resting_sign, with_sleep, with_valve_shut):
+    for reading in (with_resting_sign, with_dead_band, with_valve_shut):
         problem = reading(problem, listed)
     return problem

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.residuals.asleep import ANYWHERE
+from gripperd.diagnose.residuals.dead_band import UNIFORM
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
@@ -51,13 +51,13 @@ class Gap:
     noise_floor: float
     """Repeatability of the measurement itself."""
     ci95_after: tuple[float, float]
-    asleep: float = 0.0
+    in_band: float = 0.0
     """What nobody foretells beside it: where a regulator rests in its band."""
 
     @property
     def reachable(self) -> float:
         """What the best model can reach: the noise floor, and what nobody foretells."""
-        return float(np.hypot(self.noise_floor, self.asleep))
+        return float(np.hypot(self.noise_floor, self.in_band))
 
     @property
     def closed(self) -> float:
@@ -90,7 +90,7 @@ class Gap:
         where something was, a name closes some of it. Where a regulator sleeps a few
         rests weigh as much as all that moves, and are off by chance.
         """
-        if self.asleep:
+        if self.in_band:
             return not self.is_spoilt
         if self.ci95_after[0] > WORSE * max(self.recalibrated, self.reachable):
             return False
@@ -129,7 +129,7 @@ def gaps(
             _rms(after[signal]),
             noises[signal].floor,
             _interval(after[signal], rng),
-            ANYWHERE * test.band if signal is Signal.PRESSURE else 0.0,
+            UNIFORM * test.band if signal is Signal.PRESSURE else 0.0,
         )
         for signal in after
     }

@@ -185,11 +185,11 @@ def test_a_signal_that_sleeps_in_a_band_must_only_not_leave_it(
     after: float, *, confirms: bool
 ) -> None:
     """Beside a floor of 3 N nobody foretells 8 N: 8.5 N in all can be reached."""
-    gap = replace(_gap(9.0, after), asleep=8.0)
+    gap = replace(_gap(9.0, after), in_band=8.0)
     assert gap.reachable == pytest.approx(73**0.5)
     assert not gap.is_open
     assert gap.confirms(1) is confirms
-    assert not replace(gap, asleep=0.0).confirms(1)
+    assert not replace(gap, in_band=0.0).confirms(1)
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import pytest
 
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.whitening import innovations, law_of
-from gripperd.diagnose.residuals.asleep import ANYWHERE, SAW, asleep
 from gripperd.diagnose.residuals.block import Block
+from gripperd.diagnose.residuals.dead_band import SAW, UNIFORM, within_band
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.cycled import cut
@@ -22,7 +22,7 @@ def _sleeping(command: Array, pressure: Array | None = None) -> Block:
     read = command if pressure is None else pressure
     (course,) = cut(run(current=current, pressure=read))
     block = Block(0, Signal.PRESSURE, np.arange(command.size) % 6 != 3)
-    return asleep(block, course, REGULATOR, QUIET, BAND)
+    return within_band(block, course, REGULATOR, QUIET, BAND)
 
 
 def _correlation(block: Block, first: int, last: int) -> float:
@@ -34,7 +34,7 @@ def test_it_is_as_likely_anywhere_in_the_band() -> None:
     known = _sleeping(np.full(60, 2e5)).noise
     assert known is not None
     spread = np.std(np.linspace(0.0, BAND, 100_001))
-    assert spread == pytest.approx(ANYWHERE * BAND, rel=1e-4)
+    assert spread == pytest.approx(UNIFORM * BAND, rel=1e-4)
     assert known.drift == pytest.approx(np.hypot(spread, 400.0), rel=1e-4)
     assert (known.std, known.correlation) == (1e3, 0.0)
 

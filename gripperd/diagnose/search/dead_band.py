@@ -1,4 +1,4 @@
-"""A regulator that sleeps: within its dead band the pressure is anywhere."""
+"""A regulator that sleeps in its dead band: within it the pressure is anywhere."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -13,11 +13,11 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.resting import DECIDED
 from gripperd.model.effect import Signal
 
-SLEEPS, WIDTH = "valve_dead_band", "width"
-"""What a band is named by, and what tells how wide it is."""
+DEAD_BAND, WIDTH = "valve_dead_band", "width"
+"""Effect that a band is named by, and its parameter that tells how wide it is."""
 
 
-def with_sleep(problem: Problem, listed: Sequence[Candidate]) -> Problem:
+def with_dead_band(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     """Give the problem with the band within which its regulator sleeps, if it does.
 
     Where on a stair a pressure rests no model foretells for long. All that a dead band
@@ -30,15 +30,19 @@ def with_sleep(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         Before the search.
     listed
         What could be missing.
+
+    Returns
+    -------
+    The problem with its band [Pa], or as it came if it explains less that way.
     """
-    bands = [one for one in listed if one.name == SLEEPS]
+    bands = [one for one in listed if one.name == DEAD_BAND]
     stepped = any(course.on_stairs for course in problem.courses)
     if not bands or not stepped or Signal.PRESSURE not in problem.signals:
         return problem
     alone = Rival((), polished(problem, Point(np.zeros(len(problem.constants)))))
     beside = max(larger(problem, alone, bands), key=lambda rival: rival.evidence)
     (effect,) = beside.fit.point.effects
-    asleep = replace(problem, band=float(getattr(effect, WIDTH)))
-    null, told = (polished(asleep, one.fit.point) for one in (alone, beside))
+    within = replace(problem, band=float(getattr(effect, WIDTH)))
+    null, told = (polished(within, one.fit.point) for one in (alone, beside))
     gained = replace(beside, fit=told).evidence - replace(alone, fit=null).evidence
-    return asleep if gained > DECIDED else problem
+    return within if gained > DECIDED else problem

@@ -6,7 +6,7 @@ import pytest
 from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.fit.candidates import candidates
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.sleep import with_sleep
+from gripperd.diagnose.search.dead_band import with_dead_band
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.statement import statement
 from gripperd.diagnose.verdict.conclude import Verdict, conclude
@@ -22,14 +22,14 @@ BAND = 25e3
 def _read(spool: Spool, *known: str) -> Problem:
     problem = problem_of(stuck(spool, BAND), MODEL, {})
     library = {name: EFFECTS[name] for name in known}
-    return with_sleep(problem, candidates(library, problem, COLUMNS)[0])
+    return with_dead_band(problem, candidates(library, problem, COLUMNS)[0])
 
 
 def test_a_band_in_which_a_regulator_sleeps_is_told() -> None:
-    asleep = _read(sleeps, "valve_dead_band")
+    told = _read(sleeps, "valve_dead_band")
     # It is up to a band behind its command, and right there when it has caught up.
-    assert 0.6 * BAND < asleep.band < 1.2 * BAND
-    assert asleep.noises[Signal.PRESSURE].std == pytest.approx(NOISE, rel=0.1)
+    assert 0.6 * BAND < told.band < 1.2 * BAND
+    assert told.noises[Signal.PRESSURE].std == pytest.approx(NOISE, rel=0.1)
 
 
 @pytest.mark.parametrize("spool", [trails, sticks])
