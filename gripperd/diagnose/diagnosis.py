@@ -32,6 +32,7 @@ from gripperd.diagnose.verdict.extrapolation import (
     swept,
 )
 from gripperd.diagnose.verdict.gap import Gap, gaps
+from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.diagnose.verdict.judged import (
     bearing_signal,
     main_signal,
@@ -40,7 +41,6 @@ from gripperd.diagnose.verdict.judged import (
 from gripperd.diagnose.verdict.named import Named, named
 from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
 from gripperd.diagnose.verdict.refuted import refuted, without_refuted
-from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.diagnose.verdict.signature import signature
 from gripperd.diagnose.verdict.where import Finding, findings
 from gripperd.model.effect import Effect, Signal
@@ -158,7 +158,7 @@ def _judged(
     conclusion = conclude(judge, found, best)
     imitated = artefact(found, best)
     start, base, nearest = (
-        with_own_sign(parts, point)
+        with_fitted_state(parts, point)
         for point in (
             Point(np.zeros(len(train.constants))),
             found.null.fit.point,

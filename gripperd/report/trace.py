@@ -12,7 +12,7 @@ from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.recording import Kind
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.verdict.rested import with_own_sign
+from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -67,7 +67,9 @@ def traces(diagnosis: Diagnosis, signal: Signal) -> tuple[Trace, ...]:
         last = State.EXPLAINED if established else State.NEAREST
         points[last] = diagnosis.explained
     expected = {
-        state: whole.expected(whole.explanation(with_own_sign(diagnosis.split, point)))
+        state: whole.expected(
+            whole.explanation(with_fitted_state(diagnosis.split, point))
+        )
         for state, point in points.items()
     }
     return tuple(

@@ -22,6 +22,7 @@ from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.extrapolation import apart
 from gripperd.diagnose.verdict.gap import Gap as Judged
 from gripperd.diagnose.verdict.gap import gaps
+from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.diagnose.verdict.key import (
     CONSTANTS,
     Key,
@@ -29,7 +30,6 @@ from gripperd.diagnose.verdict.key import (
     rounded,
 )
 from gripperd.diagnose.verdict.named import Estimate, Named
-from gripperd.diagnose.verdict.rested import with_own_sign
 from gripperd.errors import Refused
 from gripperd.model import StaticMuscle
 from gripperd.model.effect import Effect, acts_in_muscle
@@ -125,7 +125,7 @@ def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:
     """Gap of a point on data that took no part in fitting it."""
     split, signal = diagnosis.split, diagnosis.main
     start, base, kept = (
-        with_own_sign(split, one)
+        with_fitted_state(split, one)
         for one in (diagnosis.nominal, diagnosis.recalibrated, point)
     )
     draws = np.random.default_rng(diagnosis.seed)

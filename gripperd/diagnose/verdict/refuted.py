@@ -20,7 +20,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest, contest
-from gripperd.diagnose.verdict.rested import with_own_sign
+from gripperd.diagnose.verdict.initial_state import with_fitted_state
 
 TELLING = 20.0
 """Squares of the noise by which a name changes what was left out, from which that can
@@ -79,13 +79,13 @@ def refuted(
     """
     # Misfit that no explanation reaches is noise here as it was in the search.
     test = replace(inside, noises=found.problem.noises)
-    told = with_own_sign(parts, best.best.fit.point)
+    told = with_fitted_state(parts, best.best.fit.point)
     names = []
     for candidate, place in zip(best.best.candidates, best.places, strict=True):
         # Far above the noise one constant stands in for another.
         if candidate.effect is None and found.problem.is_inflated:
             continue
-        without = with_own_sign(parts, place.without.fit.point)
+        without = with_fitted_state(parts, place.without.fit.point)
         changed, gained = _compared(test, without, told)
         if changed > TELLING and gained < -AGAINST * changed:
             names.append(candidate.name)

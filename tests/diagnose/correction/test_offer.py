@@ -11,7 +11,7 @@ from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.rested import with_usual_sign
+from gripperd.diagnose.verdict.initial_state import with_usual_state
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -56,7 +56,7 @@ def _offered(problem: Problem) -> list[Offer]:
 
 def _base(parts: Split) -> Point:
     start = Point(np.zeros(len(parts.train.constants)))
-    return with_usual_sign(parts.train, polished(parts.train, start).point)
+    return with_usual_state(parts.train, polished(parts.train, start).point)
 
 
 def _small(hidden: Hidden) -> Problem:

@@ -1,4 +1,4 @@
-"""How the rig came to rest in sweeps that were left out.
+"""Initial state of sweeps that were left out: the sign of friction they rest with.
 
 It is as unknown as in the others, and nothing but their own samples can tell it.
 
@@ -21,15 +21,22 @@ TRIED = np.linspace(-1.0, 1.0, 401)
 """Signs among which the likeliest is taken. [-]"""
 
 
-def with_own_sign(parts: Split, point: Point) -> Point:
+def with_fitted_state(parts: Split, point: Point) -> Point:
     """Give each sweep that was left out the sign of friction that it rests with.
 
     One number for each, and the only one that is fitted to them: about the usual sign
     of those that were not left out, and with the prior that they had. Friction is
     proportional to it, so that the misfit is a parabola.
+
+    Parameters
+    ----------
+    parts
+        What was searched, and what was left out.
+    point
+        Fitted to the former.
     """
     test, own = parts.test, _own(parts)
-    point = with_usual_sign(parts.train, point)
+    point = with_usual_state(parts.train, point)
     if not own:
         return point
     usual = point.shifts
@@ -77,11 +84,18 @@ def _misfits(problem: Problem, point: Point) -> dict[int, float]:
     return found
 
 
-def with_usual_sign(train: Problem, point: Point) -> Point:
+def with_usual_state(train: Problem, point: Point) -> Point:
     """Give sweeps that were left out the usual sign of friction of those that were not.
 
     Those that never move are set up alike, and so are those that move off from rest;
     few that came the other way change nothing (median).
+
+    Parameters
+    ----------
+    train
+        What was searched.
+    point
+        Fitted to it.
     """
     fitted = {block.course for block in train.blocks}
     signs = train.explanation(point).rests

@@ -9,7 +9,7 @@ from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.rested import with_own_sign, with_usual_sign
+from gripperd.diagnose.verdict.initial_state import with_fitted_state, with_usual_state
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from tests.diagnose.small import MODEL, altered, recording
@@ -31,7 +31,7 @@ def test_sweeps_left_out_rest_as_most_of_the_others(
     shifts[paths.index("rest.2")] = -1.0
     before, after = (
         train.explanation(point).rests
-        for point in (Point(shifts), with_usual_sign(train, Point(shifts)))
+        for point in (Point(shifts), with_usual_state(train, Point(shifts)))
     )
     others = [sign for index, sign in before.items() if index not in out]
     assert len(out & before.keys()) == 1
@@ -61,7 +61,7 @@ def test_sweeps_that_never_move_come_to_rest_like_those_that_do_not_either(
     shifts[index] = -0.9 / blank.constants[index].sigma
     kept = tuple(np.full(len(course), course.run != "b2") for course in ridden)
     train = replace(blank, courses=ridden, kept=kept)
-    point = with_usual_sign(train, Point(shifts))
+    point = with_usual_state(train, Point(shifts))
     sign = train.explanation(point).rests[courses["b2"]]
     assert sign == pytest.approx(0.9, abs=1e-6)
 
@@ -101,7 +101,7 @@ def test_a_sweep_left_out_has_the_sign_that_its_samples_tell(
     index = [one.path for one in problem.constants].index("rest.all")
     point.shifts[index] = shared / problem.constants[index].sigma
     before = problem.explanation(point).rests
-    after = problem.explanation(with_own_sign(parts, point)).rests
+    after = problem.explanation(with_fitted_state(parts, point)).rests
     # Beside it the friction of the textbook, 16 N at most, has the sign 1.
     assert after[place] == pytest.approx(sign, abs=0.08)
     assert after == pytest.approx({**before, place: after[place]})
@@ -111,5 +111,5 @@ def test_a_sign_that_shows_nowhere_is_the_usual_one(blank: Problem) -> None:
     model = replace(blank.model, effects=(RubberElasticity(),))
     parts, place = _left_out(replace(blank, model=model), "b2")
     point = _resting(blank, 0.4, place)
-    told = blank.explanation(with_own_sign(parts, point)).rests[place]
+    told = blank.explanation(with_fitted_state(parts, point)).rests[place]
     assert told == pytest.approx(0.4, abs=1e-3)
