@@ -51,6 +51,11 @@ def dwelling(problem: Problem, point: Point, noise: Noise) -> Problem:
         in which rubber creeps, tells how loud dwells are.
     noise
         Of the force, as identified. [N]
+
+    Returns
+    -------
+    The problem with a block for each dwell, last; as it came with fewer than
+    :data:`FEW` of them.
     """
     dwells = tuple(_dwells(problem))
     if len(dwells) < FEW:
@@ -66,7 +71,17 @@ def dwelling(problem: Problem, point: Point, noise: Noise) -> Problem:
 
 
 def misfit(problem: Problem, point: Point, signal: Signal) -> float:
-    """Chi² of the dwells of a signal, each about a level of its own."""
+    """Chi² of the dwells of a signal, each about a level of its own. [-].
+
+    Parameters
+    ----------
+    problem
+        With dwells; without, nothing is off.
+    point
+        The explanation.
+    signal
+        Whose dwells.
+    """
     residuals = problem.residuals(point)
     total = 0.0
     for index in dwells_of(problem, signal):

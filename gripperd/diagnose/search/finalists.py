@@ -13,7 +13,13 @@ FINALISTS = 4
 
 
 def leaders(singles: Mapping[Member, float]) -> list[Member]:
-    """Best form of each kind, best first."""
+    """Give the best form of each kind, best first.
+
+    Parameters
+    ----------
+    singles
+        Gain of each form on its own. [nat]
+    """
     found: dict[tuple[str, ...], Member] = {}
     for member in sorted(singles, key=lambda one: -singles[one]):
         found.setdefault(member.candidate.kind, member)
@@ -61,6 +67,17 @@ def heard(
 
     There one signal may be so loud that no other would have its say. What gains nothing
     on its own has none.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    singles
+        Gain of each candidate on its own. [nat]
+    ranked
+        Sets of candidates, best first.
+    most
+        How many are the first few.
     """
     found = list(ranked[:most])
     if problem.is_inflated:

@@ -12,8 +12,11 @@ class Found:
     """Outcome of the search."""
 
     problem: Problem
+    """The recording and the model, with the noise that explanations were judged by."""
     null: Rival
+    """The best constants alone."""
     best: Rival
+    """The simplest explanation that no larger one beats by its price."""
     rivals: tuple[Rival, ...]
     """All that were fitted in full, best first."""
     threshold: float

@@ -59,7 +59,15 @@ def _has_bore_instead(problem: Problem, rival: Rival, other: Rival) -> bool:
 
 
 def at_edge(problem: Problem, rival: Rival) -> tuple[str, ...]:
-    """Names of the constants of the muscle that their tolerances hold back."""
+    """Names of the constants of the muscle that their tolerances hold back.
+
+    Parameters
+    ----------
+    problem
+        Whose constants they are.
+    rival
+        The explanation that was fitted with them.
+    """
     point = rival.fit.point
     held = np.abs(point.shifts / point.widths) > HELD * problem.reach(point)
     return tuple(
@@ -70,7 +78,17 @@ def at_edge(problem: Problem, rival: Rival) -> tuple[str, ...]:
 
 
 def strained(problem: Problem, rival: Rival, among: Collection[str] = ()) -> bool:
-    """Whether an effect, of some or of all, would be larger, did its limit let it."""
+    """Whether an effect, of some or of all, would be larger, did its limit let it.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    rival
+        The explanation that was fitted.
+    among
+        Names of some of its effects; none for all.
+    """
     return any(
         _at_limit(problem, effect, name)
         for effect in rival.fit.point.effects

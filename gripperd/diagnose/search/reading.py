@@ -14,6 +14,13 @@ def as_read(problem: Problem, listed: Sequence[Candidate]) -> Problem:
 
     Which way friction acts at rest, whether the regulator sleeps within a band, and
     which holds its valve was shut in.
+
+    Parameters
+    ----------
+    problem
+        Before the search.
+    listed
+        What could be missing.
     """
     for reading in (with_resting_sign, with_dead_band, with_valve_shut):
         problem = reading(problem, listed)

@@ -28,7 +28,15 @@ TELLING = (
 
 
 def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
-    """Give the problem with the sign at rest that explains most, by evidence."""
+    """Give the problem with the sign at rest that explains most, by evidence.
+
+    Parameters
+    ----------
+    problem
+        Before the search.
+    listed
+        What could be missing; of it what :data:`TELLING` names is tried beside each.
+    """
     if not rests(problem):
         return problem
     few = [one for one in listed if one.name in TELLING]
@@ -53,6 +61,13 @@ def with_sign_beside(problem: Problem, found: Rival) -> Problem:
 
     What nobody knew of when the sign was chosen may have stood behind it: a cell that
     is late opens the loop of a friction that turns with the pressure.
+
+    Parameters
+    ----------
+    problem
+        As it was searched.
+    found
+        The best explanation of it.
     """
     if not found.candidates or not rests(problem):
         return problem

@@ -17,6 +17,7 @@ from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
 
 EXCHANGES = 2
+"""Rounds in which a rival may take a place."""
 CHALLENGERS = 4
 """Rivals of each effect that are fitted in full."""
 SURE = 2.0
@@ -60,7 +61,15 @@ class Contest:
 
 
 def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
-    """Let rivals challenge each effect in turn; a better one takes its place."""
+    """Let rivals challenge each effect in turn; a better one takes its place.
+
+    Parameters
+    ----------
+    found
+        The search.
+    listed
+        What could be missing.
+    """
     problem, best = found.problem, found.best
     without = without_each(problem, best)
     challenged = _challenged(problem, best, without, listed)
@@ -92,7 +101,15 @@ def _pays(found: Found, bare: Rival, rival: Rival) -> bool:
 
 
 def standing_in(found: Found, told: Contest) -> Contest:
-    """Keep of the rivals those that fit as well, best first."""
+    """Keep of the rivals those that fit as well, best first.
+
+    Parameters
+    ----------
+    found
+        The search.
+    told
+        Its outcome, with whoever was fitted in each place.
+    """
     best = told.best
     null = found.null.fit
     margin = _margin(null.cost - best.fit.cost, best.excess)

@@ -23,6 +23,13 @@ def with_valve_shut(problem: Problem, listed: Sequence[Candidate]) -> Problem:
 
     Either every hold may be, or those alone whose pressure sinks. Where some sink and
     what the others lose does not decide it, a leak fits one way much better.
+
+    Parameters
+    ----------
+    problem
+        Before the search.
+    listed
+        What could be missing.
     """
     leaks = [one for one in listed if one.name == SHUT]
     sunk = sinking(problem.courses)

@@ -46,6 +46,7 @@ MISFIT = 2.0
 HOPELESS = 150.0
 """The same of the null, from which no explanation can reach the noise. [-]"""
 DEFLATIONS = 3
+"""Passes after the first, each with noise no louder than the one before left it."""
 NEXT = 2
 """Explanations that are fitted in full."""
 MOST = 4

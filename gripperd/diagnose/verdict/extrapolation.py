@@ -16,6 +16,7 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
 CONDITIONS = ("current", "pressure", "contraction", "temperature", "rate")
+"""What a sweep may go further in; the rate is that of the contraction."""
 TAILS = (0.01, 0.99)
 """Quantiles that stand for the ends of a sweep: a single sample is noise."""
 
@@ -25,6 +26,7 @@ class Extrapolation:
     """How far simulation and measurement are apart beyond what was searched."""
 
     runs: tuple[str, ...]
+    """Names of the sweeps that lie there."""
     gaps: Mapping[Signal, Gap]
 
 
@@ -51,7 +53,19 @@ def apart(parts: Split) -> tuple[Problem, Problem | None]:
 def extrapolation(
     parts: Split, outside: Problem | None, points: Sequence[Point], seed: int
 ) -> Extrapolation | None:
-    """Judge what lies beyond what was searched, as :func:`gaps` does."""
+    """Judge what lies beyond what was searched, as :func:`gaps` does.
+
+    Parameters
+    ----------
+    parts
+        What was searched, and what was left out.
+    outside
+        Of the latter what lies beyond the former; see :func:`apart`.
+    points
+        The model as it came, with the best constants, and with the effects.
+    seed
+        Of the interval.
+    """
     if outside is None:
         return None
     judged = gaps(outside, points, parts.train.noises, np.random.default_rng(seed))

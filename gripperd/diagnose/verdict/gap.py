@@ -23,6 +23,7 @@ STRETCH = 40
 PIECES = 8
 """Of a few samples as many are drawn at least, be they shorter."""
 DRAWS = 400
+"""Of the bootstrap."""
 WORSE = 1.01
 """Gap over that of better constants alone from which effects do harm. [-]"""
 OPEN = 1.1
@@ -51,6 +52,7 @@ class Gap:
     noise_floor: float
     """Repeatability of the measurement itself."""
     ci95_after: tuple[float, float]
+    """Interval that holds ``after`` with 95 %, by a block bootstrap [1]_."""
     in_band: float = 0.0
     """What nobody foretells beside it: where a regulator rests in its band."""
 

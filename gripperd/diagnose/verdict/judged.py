@@ -14,6 +14,13 @@ def main_signal(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
 
     A sensor that errs shows in every stage that it touches, in one most. Without any
     effect the story is about the force.
+
+    Parameters
+    ----------
+    best
+        Outcome of the search.
+    judged
+        Gaps on what was left out.
     """
     effects = [one.effect for one in best.best.candidates if one.effect]
     for effect in effects:

@@ -23,9 +23,11 @@ class Estimate:
 
     value: float
     std: float
+    """Standard deviation."""
     low: float = -inf
     """Beyond it nothing was sought."""
     high: float = inf
+    """The same above."""
 
 
 @dataclass(frozen=True)
@@ -43,11 +45,15 @@ class Named:
     size: float
     """Root mean square of its part in its signal. [SI]"""
     signal: Signal
+    """Where it changes most against full scale."""
     equivalents: tuple[str, ...]
+    """Names that fit as well in its place."""
     p_value: float
+    """Chance of such a gain on noise alone. [-]"""
     delta_bic: float
+    """BIC with it less that without it; negative if it is worth its numbers. [-]"""
     heldout_gain: float
-    """Share of the mean square above the noise that it closes on held-out runs."""
+    """Share of the mean square above the noise that it closes on held-out runs. [-]"""
 
     @property
     def chosen(self) -> dict[str, str]:
@@ -58,7 +64,15 @@ class Named:
 def named(
     found: Found, best: Contest, judged: Mapping[Signal, Gap]
 ) -> tuple[Named, ...]:
-    """Describe everything the best explanation adds."""
+    """Describe everything the best explanation adds.
+
+    Parameters
+    ----------
+    found, best
+        The search and its outcome.
+    judged
+        Gaps on what was left out.
+    """
     rival = best.best
     return tuple(
         _described(found, best, index, candidate, judged)

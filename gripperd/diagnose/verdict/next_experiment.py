@@ -37,8 +37,11 @@ class Sweep(NamedTuple):
     kind: Kind
     title: str
     time: Array
+    """Shape ``(n,)``. [s]"""
     pressure: Array
+    """Shape ``(n,)``. [Pa]"""
     contraction: Array
+    """Shape ``(n,)``. [-]"""
     warmer: float = 0.0
     """Above the temperature of the recording. [K]"""
 
@@ -49,12 +52,15 @@ class Proposal:
 
     kind: Kind | None
     why: str
+    """What it tells apart, or that nothing does."""
     title: str
+    """What to do, in words; empty without a sweep."""
     plan: Mapping[str, object]
+    """Corner points by the columns of a recording, in their units."""
 
 
 def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
-    """Choose the sweep that maximises expected separation per second.
+    """Choose the sweep that maximises expected separation per second [1]_.
 
     Parameters
     ----------

@@ -22,7 +22,9 @@ class Recalibrated:
     tolerance: float
     """One sigma, stated or assumed."""
     fit: float
+    """As the recording has it."""
     std: float
+    """Standard deviation of that."""
 
     @property
     def moved(self) -> float:

@@ -20,7 +20,19 @@ def signature(
     conclusion: Conclusion,
     artefact: Artefact | None = None,
 ) -> tuple[str, ...]:
-    """Describe what is left, most telling first."""
+    """Describe what is left, most telling first.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    best
+        What came nearest.
+    conclusion
+        What is left beside it.
+    artefact
+        What explains more than any effect, if anything does.
+    """
     words = [f"share of the gap that known effects explain: {conclusion.share:.0%}"]
     if best.best.names:
         nearest = ", ".join(map(plain, best.best.names))

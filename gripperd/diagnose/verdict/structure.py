@@ -38,6 +38,7 @@ class Structure:
     excess: float
     """Sum of squares above what noise has. [-]"""
     p_value: float
+    """Chance of such an excess in noise. [-]"""
     size: float
     """Root mean square of the excess, of full scale. [-]"""
     share: float
@@ -45,7 +46,15 @@ class Structure:
 
 
 def structures(problem: Problem, residuals: Sequence[Array]) -> tuple[Structure, ...]:
-    """Look at residuals in every order, most significant first."""
+    """Look at residuals in every order, most significant first.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model; its noise whitens the residuals.
+    residuals
+        Measured minus predicted, block by block. [SI]
+    """
     white = [
         problem.white([residual], index)[:, 0]
         for index, residual in enumerate(residuals)
@@ -64,7 +73,13 @@ def structures(problem: Problem, residuals: Sequence[Array]) -> tuple[Structure,
 
 
 def loudness(problem: Problem, residuals: Sequence[Array]) -> dict[Signal, float]:
-    """Give the mean square of what is left of each signal; 1 of its noise. [-]."""
+    """Give the mean square of what is left of each signal; 1 of its noise. [-].
+
+    Parameters
+    ----------
+    problem, residuals
+        As of :func:`structures`.
+    """
     found: dict[Signal, list[Array]] = {}
     for index, (block, residual) in enumerate(
         zip(problem.blocks, residuals, strict=True)

@@ -48,7 +48,7 @@ class Finding:
     std: float
     """Standard error of the bias. [SI]"""
     p_value: float
-    """Corrected for how many stretches were looked at."""
+    """Chance of such a bias, for how many stretches were looked at (Holm [1]_). [-]"""
 
 
 def findings(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...]:
