@@ -7,9 +7,10 @@ from itertools import pairwise
 import numpy as np
 
 from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
+from gripperd.diagnose.readings.command import as_commanded, stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
-from gripperd.diagnose.readings.level import MOVES, levels
+from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
@@ -18,7 +19,6 @@ from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.table import lists_points
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.errors import InputError
-from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
 PAUSE = 40.0
@@ -61,6 +61,7 @@ def courses(
             " one sweep need the same name in column run"
         )
         raise InputError(message, key="run")
+    sweeps = as_commanded(sweeps)
     names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
     readings = {
         name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
@@ -139,26 +140,3 @@ def _pieces(run: Run) -> Iterator[Run]:
         name = run.name if len(cuts) == 2 else f"{run.name}#{index + 1}"
         columns = {key: value[start:end] for key, value in run.columns.items()}
         yield Run(name, columns, run.kind)
-
-
-def stillness(sweep: Run) -> Array:
-    """Time since the command last moved, NaN where there is none. [s].
-
-    Before the first command that was read nobody knows that it moved.
-    """
-    time = sweep.columns["time"]
-    if not sweep.has("current"):
-        return np.full_like(time, np.nan)
-    return compiled(_since)(sweep.columns["current"], time, MOVES)
-
-
-def _since(value: Array, time: Array, least: float) -> Array:
-    out = np.empty_like(value)
-    held, since = value[0], time[0]
-    for i in range(value.size):
-        if np.isnan(held):
-            held = value[i]
-        if abs(value[i] - held) > least:
-            held, since = value[i], time[i]
-        out[i] = time[i] - since
-    return out

@@ -65,22 +65,22 @@ def levels(
     }
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
-        bent = _bending(sweep, "contraction", found["contraction"])
+        bent = bending(sweep, "contraction", found["contraction"])
         found["contraction"] = _steady(_unswung(sweep, bent))
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs
         )
     elif "pressure" in found:
-        leapt = _leaping(sweep, "pressure", found["pressure"])
-        found["pressure"] = _bending(sweep, "pressure", leapt)
+        leapt = leaping(sweep, "pressure", found["pressure"])
+        found["pressure"] = bending(sweep, "pressure", leapt)
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
 
 
 def _tried(name: str) -> Array:
-    return OF_LENGTH if name == "contraction" else STIFFNESSES
+    return OF_LENGTH if name in ("contraction", "current") else STIFFNESSES
 
 
 def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
@@ -113,7 +113,7 @@ def _steady(known: Smooth) -> Smooth:
     return known._replace(value=out)
 
 
-def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
+def leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
     """Column that may leap, where nothing tells of its steps, if that is likelier.
 
     A trend that is supple enough for a step leaves the noise in the rests beside it.
@@ -124,7 +124,7 @@ def _leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
     return leapt if leapt.leapt and likelier else plain
 
 
-def _bending(sweep: Run, name: str, plain: Smooth) -> Smooth:
+def bending(sweep: Run, name: str, plain: Smooth) -> Smooth:
     """Column that may be stiff between corners and supple at them, if likelier.
 
     What is cut off a corner of a staircase is missing in the force as well, many times
@@ -144,7 +144,7 @@ def _unswung(sweep: Run, plain: Smooth) -> Smooth:
     A trend goes further than a step of a free muscle, and comes back. A load may swing
     in earnest: then it is no leap.
     """
-    known = _leaping(sweep, "contraction", plain)
+    known = leaping(sweep, "contraction", plain)
     least = reversal(known.spread)
     for row in known.leapt:
         ways = np.diff(known.value[row.start - 1 : row.stop])

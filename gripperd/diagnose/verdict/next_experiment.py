@@ -15,8 +15,8 @@ import numpy as np
 from gripperd.diagnose.fit.polish import slopes
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.command import stillness
 from gripperd.diagnose.readings.course import Course
-from gripperd.diagnose.readings.cutting import stillness
 from gripperd.diagnose.readings.recording import Kind, Run
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.diagnose.residuals.problem import Problem

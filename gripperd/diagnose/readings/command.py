@@ -1,0 +1,140 @@
+"""The command of a valve, also where a log has a reading of it in its place.
+
+A command has no noise, and a regulator follows every wiggle of it. That of a reading it
+never sees.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.smoothing import OF_LENGTH, smooth
+from gripperd.diagnose.readings.level import MOVES, bending, leaping
+from gripperd.diagnose.readings.recording import Run
+from gripperd.model.compiled import compiled
+from gripperd.model.track import Array
+
+READ = 1e-5
+"""Noise from which a current was read, not written: three steps of 12 bits. [A]"""
+FOLLOWED = 0.3
+"""Share of its wiggles that the pressure follows if they are the command's. [-]"""
+LATEST = 4
+"""Samples by which it may follow late."""
+RESTS = 30
+"""Samples from which a command that does not move has come to rest."""
+FAR = 3.0
+"""Standard errors within which the halves of a rest are alike. [-]"""
+
+
+def as_commanded(sweeps: Sequence[Run]) -> list[Run]:
+    """Take the noise off currents that were read back.
+
+    Parameters
+    ----------
+    sweeps
+        Of one recording, without a pause.
+    """
+    columns = [sweep.columns["current"] for sweep in sweeps if sweep.has("current")]
+    noise = quick_noise(columns, coarse_step(columns), LONG)
+    if noise.std < READ or _is_followed(sweeps):
+        return list(sweeps)
+    return [_quiet(one, noise) if one.has("current") else one for one in sweeps]
+
+
+def stillness(sweep: Run) -> Array:
+    """Time since the command last moved, NaN where there is none. [s].
+
+    Before the first command that was read nobody knows that it moved.
+    """
+    time = sweep.columns["time"]
+    if not sweep.has("current"):
+        return np.full_like(time, np.nan)
+    return compiled(_since)(sweep.columns["current"], time, MOVES)
+
+
+def _is_followed(sweeps: Sequence[Run]) -> bool:
+    """Whether the pressure goes with what the current does from sample to sample."""
+    pairs = []
+    for sweep in sweeps:
+        if sweep.has("current") and sweep.has("pressure"):
+            current, pressure = sweep.columns["current"], sweep.columns["pressure"]
+            known = np.isfinite(current) & np.isfinite(pressure)
+            if known.sum() > LONG:
+                pairs.append((current[known], pressure[known]))
+    if not pairs:
+        return True
+    told, got = (np.concatenate(column) for column in zip(*pairs, strict=True))
+    gain = float(np.polyfit(told, got, 1)[0])
+    wiggles = [(_wiggle(gain * told), _wiggle(got)) for told, got in pairs]
+    power = sum(float(asked @ asked) for asked, _ in wiggles)
+    followed = max(
+        sum(float(asked[: asked.size - lag] @ got[lag:]) for asked, got in wiggles)
+        for lag in range(LATEST + 1)
+    )
+    return followed > FOLLOWED * power
+
+
+def _wiggle(column: Array) -> Array:
+    """Second differences; 0 at a corner or a step, where they are far larger."""
+    bend = np.diff(column, 2)
+    most = 4 * float(np.median(np.abs(bend)))
+    bounded: Array = np.where(np.abs(bend) <= most, bend, 0.0)
+    return bounded
+
+
+def _quiet(sweep: Run, noise: Noise) -> Run:
+    time, current = sweep.columns["time"], sweep.columns["current"]
+    plain = smooth(time, current, noise.slow_variance, tried=OF_LENGTH)
+    best = max(
+        plain,
+        leaping(sweep, "current", plain),
+        bending(sweep, "current", plain),
+        key=lambda one: one.likelihood,
+    )
+    rested = _at_rest(current, best.value, time, noise)
+    commanded = np.where(np.isfinite(current), rested, np.nan)
+    return replace(sweep, columns={**sweep.columns, "current": commanded})
+
+
+def _at_rest(read: Array, value: Array, time: Array, noise: Noise) -> Array:
+    """Let what stays where it is, but for what is left of its noise, rest indeed."""
+    out = value.copy()
+    moved = compiled(_moved)(value, read, noise.std)
+    for start, end in pairwise([*np.flatnonzero(moved).tolist(), value.size]):
+        if end - start < RESTS:
+            continue
+        middle = (start + end) // 2
+        gone = np.nanmean(read[middle:end]) - np.nanmean(read[start:middle])
+        error = 2 * (noise.slow_variance / (end - start)) ** 0.5
+        if abs(gone) < FAR * error:
+            out[start:end] = np.nanmean(read[start:end])
+    return out
+
+
+def _moved(value: Array, read: Array, std: float) -> Array:
+    """Samples from which a column is no more where it was on average: 1, else 0."""
+    out = np.zeros(value.size)
+    total, count = 0.0, 0
+    for i in range(value.size):
+        least = std * (1 + 2 / max(count, 1) ** 0.5)
+        if count == 0 or abs(value[i] - total / count) > least:
+            out[i] = 1.0
+            total, count = 0.0, 0
+        total += value[i] if np.isnan(read[i]) else read[i]
+        count += 1
+    return out
+
+
+def _since(value: Array, time: Array, least: float) -> Array:
+    out = np.empty_like(value)
+    held, since = value[0], time[0]
+    for i in range(value.size):
+        if np.isnan(held):
+            held = value[i]
+        if abs(value[i] - held) > least:
+            held, since = value[i], time[i]
+        out[i] = time[i] - since
+    return out
