@@ -10,6 +10,7 @@ from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.command import as_commanded, stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
+from gripperd.diagnose.readings.frame import with_yielding_frame
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
@@ -91,6 +92,8 @@ def courses(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
     ]
+    if "contraction" in noises:
+        found = with_yielding_frame(found, noises["contraction"])
     listed = lists_points(found)
     told = zip(found, waiting(found), supply_drops(found), strict=True)
     return tuple(

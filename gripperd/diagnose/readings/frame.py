@@ -1,0 +1,79 @@
+"""A frame that yields: the length of a muscle that is held goes with its force.
+
+A test stand gives way by some tenths of a millimetre, often less than its reading is
+noisy. Over all held sweeps the force tells how far; the pull of a muscle falls so
+steeply with its contraction that it matters, and what rubs turns round with it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.travel import STUCK, travel
+from gripperd.model.track import Array
+
+CERTAIN = 5.0
+"""Standard errors by which contraction must go with the force: the drift of a sensor
+may as well, by less. [-]"""
+SLID = 3e-4
+"""Contraction that must be undone before what rubs has turned round. [-]"""
+
+
+def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]:
+    """Let held sweeps go with their force, if all of them together do.
+
+    Parameters
+    ----------
+    courses
+        Of one recording.
+    noise
+        Of its contraction. [-]
+    """
+    held = [index for index, course in enumerate(courses) if _is_held(course)]
+    pulls = [_about_mean(courses[index].level("force")) for index in held]
+    power = sum(float(pull @ pull) for pull in pulls)
+    if power == 0:
+        return list(courses)
+    ways = [courses[index].column("contraction") for index in held]
+    gone = sum(
+        float(pull @ np.where(np.isfinite(way), _about_mean(way), 0.0))
+        for pull, way in zip(pulls, ways, strict=True)
+    )
+    compliance = gone / power
+    error = (noise.slow_variance / power) ** 0.5
+    if compliance < CERTAIN * error:
+        return list(courses)
+    found = list(courses)
+    for index, pull in zip(held, pulls, strict=True):
+        found[index] = _yielding(courses[index], compliance * pull, compliance)
+    return found
+
+
+def _is_held(course: Course) -> bool:
+    known = course.smooth.get("contraction"), course.smooth.get("force")
+    return not course.direction.any() and all(
+        one is not None and bool(np.isfinite(one.value).all()) for one in known
+    )
+
+
+def _about_mean(column: Array) -> Array:
+    about: Array = column - np.nanmean(column)
+    return about
+
+
+def _yielding(course: Course, way: Array, compliance: float) -> Course:
+    rate = compliance * course.rate("force")
+    smooth = {
+        name: _going(known, way, rate) if name in ("contraction", "length") else known
+        for name, known in course.smooth.items()
+    }
+    least = max(SLID, 2 * STUCK * float(np.ptp(way)))
+    return replace(course, smooth=smooth, direction=travel(way, least))
+
+
+def _going(known: Smooth, way: Array, rate: Array) -> Smooth:
+    return known._replace(value=float(np.mean(known.value)) + way, rate=rate)
