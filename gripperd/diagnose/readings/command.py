@@ -10,7 +10,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.model import (
+    CONSISTENT,
+    LONG,
+    Noise,
+    coarse_step,
+    quick_noise,
+)
 from gripperd.diagnose.noise.smoothing import OF_LENGTH, smooth
 from gripperd.diagnose.readings.level import MOVES, bending, leaping
 from gripperd.diagnose.readings.recording import Run
@@ -38,9 +44,9 @@ def as_commanded(sweeps: Sequence[Run]) -> list[Run]:
         Of one recording, without a pause.
     """
     columns = [sweep.columns["current"] for sweep in sweeps if sweep.has("current")]
-    noise = quick_noise(columns, coarse_step(columns), LONG)
-    if noise.std < READ or _is_followed(sweeps):
+    if not _wiggles(columns) or _is_followed(sweeps):
         return list(sweeps)
+    noise = quick_noise(columns, coarse_step(columns), LONG)
     return [_quiet(one, noise) if one.has("current") else one for one in sweeps]
 
 
@@ -53,6 +59,15 @@ def stillness(sweep: Run) -> Array:
     if not sweep.has("current"):
         return np.full_like(time, np.nan)
     return compiled(_since)(sweep.columns["current"], time, MOVES)
+
+
+def _wiggles(columns: Sequence[Array]) -> bool:
+    """Whether currents bend at most samples; stairs and ramps bend at few."""
+    bends = np.concatenate([np.empty(0), *(np.diff(column, 2) for column in columns)])
+    known = bends[np.isfinite(bends)]
+    # Second differences of white noise have six times its variance.
+    std = CONSISTENT * np.median(np.abs(known)) / 6**0.5 if known.size else 0.0
+    return bool(std > READ)
 
 
 def _is_followed(sweeps: Sequence[Run]) -> bool:
