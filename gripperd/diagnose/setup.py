@@ -11,7 +11,7 @@ from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.constants import constants
-from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.loudness import audible, noises_of
 from gripperd.diagnose.residuals.plausible import check_judged, check_plausible
@@ -48,6 +48,9 @@ def problem_of(
     sweeps, noises = courses(recording, model.muscle.rest_length)
     if not recording.has("contraction") and recording.has("length"):
         model = replace(model, told_length=model.muscle.rest_length)
+    if any(sweep.yields for sweep in sweeps):
+        # What is held there moves after all, and its friction turns round.
+        model = replace(model, at_rest=AtRest.INFLATING)
     loud = {
         signal: audible(noises[signal.value], signal, sweeps)
         for signal in INPUTS

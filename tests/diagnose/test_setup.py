@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from tests.diagnose.held import COMPLIANCE, held
 from tests.diagnose.small import (
     MODEL,
     Moment,
@@ -38,6 +40,15 @@ def test_every_sweep_without_travel_has_a_sign_at_rest(blank: Problem) -> None:
     still = {i for i, course in enumerate(blank.courses) if course.run not in "def"}
     signs = {f"rest.{i}" for i in still} | {"rest.all"}
     assert {path for path in _paths(blank) if path.startswith("rest.")} == signs
+
+
+@pytest.mark.parametrize(
+    ("compliance", "sign"), [(COMPLIANCE, AtRest.INFLATING), (0.0, AtRest.CARRIED)]
+)
+def test_what_is_held_by_a_frame_that_yields_turns_its_friction_round(
+    compliance: float, sign: AtRest
+) -> None:
+    assert problem_of(held(compliance), MODEL, {}).model.at_rest is sign
 
 
 def test_a_rig_that_measures_a_push_is_never_slack(blank: Problem) -> None:

@@ -38,6 +38,8 @@ class Course:
     """The same, 0 where a regulator is taken to keep the pressure. [s]"""
     on_stairs: bool = False
     """Whether the pressure of its recording goes in stairs, which no trend follows."""
+    yields: bool = False
+    """Whether it is held by a frame that yields."""
     listed: bool = False
     """Whether its recording lists settled points, with a counter for a clock."""
     slices: tuple[slice, ...] = (slice(None),)
@@ -110,6 +112,7 @@ def joined(courses: Sequence[Course]) -> Course:
         still=np.concatenate([course.still for course in courses]),
         waiting=np.concatenate([course.waiting for course in courses]),
         on_stairs=any(course.on_stairs for course in courses),
+        yields=any(course.yields for course in courses),
         listed=is_table(courses),
         slices=tuple(
             slice(end - len(course), end)

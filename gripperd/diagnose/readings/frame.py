@@ -1,8 +1,8 @@
 """A frame that yields: the length of a muscle that is held goes with its force.
 
 A test stand gives way by some tenths of a millimetre, often less than its reading is
-noisy. Over all held sweeps the force tells how far; the pull of a muscle falls so
-steeply with its contraction that it matters, and what rubs turns round with it.
+noisy. Over all held sweeps the force tells how far, and the pull of a muscle falls so
+steeply with its contraction that it matters. It is no travel.
 """
 
 from collections.abc import Sequence
@@ -13,14 +13,11 @@ import numpy as np
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.course import Course
-from gripperd.diagnose.readings.travel import STUCK, travel
 from gripperd.model.track import Array
 
 CERTAIN = 5.0
 """Standard errors by which contraction must go with the force: the drift of a sensor
 may as well, by less. [-]"""
-SLID = 3e-4
-"""Contraction that must be undone before what rubs has turned round. [-]"""
 
 
 def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]:
@@ -71,8 +68,7 @@ def _yielding(course: Course, way: Array, compliance: float) -> Course:
         name: _going(known, way, rate) if name in ("contraction", "length") else known
         for name, known in course.smooth.items()
     }
-    least = max(SLID, 2 * STUCK * float(np.ptp(way)))
-    return replace(course, smooth=smooth, direction=travel(way, least))
+    return replace(course, smooth=smooth, yields=True)
 
 
 def _going(known: Smooth, way: Array, rate: Array) -> Smooth:

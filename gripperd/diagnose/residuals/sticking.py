@@ -68,7 +68,8 @@ def stuck(course: Course) -> Mask:
 def late(course: Course) -> Mask:
     """Samples in which a free muscle sticks: its pressure turned, and later it follows.
 
-    What a machine moves follows no pressure. What does lies still until its friction
+    What a machine moves follows no pressure, nor does what a frame holds that yields.
+    What does lies still until its friction
     has turned round, and that lies anywhere between the two directions until then. So
     it does where a sweep begins: nobody knows how the muscle came there. And so it does
     where its pressure turns again, or the sweep ends, before it has gone as far as the
@@ -76,7 +77,7 @@ def late(course: Course) -> Mask:
     """
     found = np.zeros(len(course), dtype=bool)
     pressure = course.level("pressure")
-    if not np.isfinite(pressure).all():
+    if not np.isfinite(pressure).all() or not course.direction.any():
         return found
     top = float(np.max(np.abs(pressure)))
     if np.ptp(pressure) < SWEPT * top:

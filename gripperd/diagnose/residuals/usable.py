@@ -8,7 +8,7 @@ from scipy.ndimage import binary_dilation, uniform_filter1d
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.leap import leaps
-from gripperd.diagnose.readings.travel import leaning, noticed, reversal
+from gripperd.diagnose.readings.travel import leaning, noticed, reversal, travel
 from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.diagnose.residuals.sticking import PRESSED, late, stuck
 from gripperd.model.effect import Signal
@@ -21,6 +21,9 @@ OFF = 3.0
 CORNER = 0.001
 """Share of the largest reading up to which a cut corner does not matter: the error
 of good pressure transmitters. [-]"""
+
+TURNED = 0.1
+"""Share of the way by which friction has turned round from which it is turning. [-]"""
 
 LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
@@ -51,6 +54,7 @@ def usable(course: Course, signal: Signal) -> Mask:
         good &= ~_transients(course)
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
+        good &= ~_winding(course)
     if sweeps and signal is Signal.FORCE:
         good &= ~stuck(course) & ~late(course)
     return good
@@ -119,6 +123,20 @@ def _reversals(course: Course) -> Mask:
         near[max(place - reach, 0) : place + reach] = True
         start = place
     return near
+
+
+def _winding(course: Course) -> Mask:
+    """Samples of a muscle whose frame yields, while its friction turns round."""
+    found = np.zeros(len(course), dtype=bool)
+    if not course.yields:
+        return found
+    way, seen = course.level("contraction"), noticed(0.0)
+    sign = travel(way, TURNED * seen)
+    turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)
+    for start, end in pairwise([*turns.tolist(), sign.size]):
+        gone = np.abs(way[start:end] - way[start])
+        found[start:end] = ~np.logical_or.accumulate(gone > seen)
+    return found
 
 
 def _transients(course: Course) -> Mask:

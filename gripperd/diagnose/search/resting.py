@@ -33,7 +33,7 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     Parameters
     ----------
     problem
-        Before the search.
+        Before the search; the sign of its model stays where none is better.
     listed
         What could be missing; of it what :data:`TELLING` names is tried beside each.
     """
@@ -41,7 +41,8 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         return problem
     few = [one for one in listed if one.name in TELLING]
     best, most = problem, -np.inf
-    for sign in AtRest:
+    known = problem.model.at_rest
+    for sign in sorted(AtRest, key=lambda one: one is not known):
         tried = replace(problem, model=replace(problem.model, at_rest=sign))
         start = polished(tried, Point(np.zeros(len(problem.constants)))).point
         around = design(tried, start, few)

@@ -11,6 +11,7 @@ from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.usable import usable
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from tests.diagnose.held import COMPLIANCE, SIZE, held
 from tests.diagnose.small import (
     REGULATOR,
     recording,
@@ -52,6 +53,20 @@ def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
     near = np.abs(time - 14.0)
     assert not good[near < 0.4].any()
     assert good[(near > 1.2) & (time > 2)].all()
+
+
+@pytest.mark.parametrize("compliance", [COMPLIANCE, 0.0])
+def test_while_friction_turns_round_in_a_frame_that_yields_nobody_knows_its_way(
+    compliance: float,
+) -> None:
+    for course in courses(held(compliance), 0.25)[0]:
+        good = usable(course, Signal.FORCE)
+        turn, sample = SIZE // 2, 2 * compliance * 1e3 / SIZE
+        assert good[turn - 10 : turn - 3].all()
+        # Until 3e-4 are undone; a rigid frame turns nothing round.
+        until = turn + round(3e-4 / sample) if sample else turn
+        assert not good[turn + 2 : until - 2].any()
+        assert good[until + 4 :].all()
 
 
 @pytest.mark.parametrize(

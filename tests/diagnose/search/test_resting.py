@@ -1,3 +1,4 @@
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -12,6 +13,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.fitted import fitted
@@ -22,6 +24,7 @@ from tests.diagnose.small import (
     altered,
     nothing,
     recording,
+    textbook,
     without,
 )
 
@@ -41,6 +44,19 @@ def _turning(moment: Moment) -> Array:
         return -25.0 * moment.direction
     rises = np.gradient(moment.pressure) >= 0
     return np.where(rises, -25.0, 25.0)
+
+
+def _smooth(moment: Moment) -> Array:
+    """Takes away the friction that the rig has."""
+    return textbook(replace(moment, direction=0 * moment.direction)) - textbook(moment)
+
+
+@pytest.mark.parametrize("sign", AtRest)
+def test_what_is_known_of_it_stays_where_nothing_tells(sign: AtRest) -> None:
+    model = replace(MODEL, effects=(RubberElasticity(),), at_rest=sign)
+    problem = problem_of(recording(_smooth), model, {})
+    listed, _ = candidates(LIBRARY, problem, COLUMNS)
+    assert with_resting_sign(problem, listed).model.at_rest is sign
 
 
 def _carried(moment: Moment) -> Array:
