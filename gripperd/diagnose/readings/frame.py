@@ -16,8 +16,8 @@ from gripperd.diagnose.readings.course import Course
 from gripperd.model.track import Array
 
 CERTAIN = 5.0
-"""Standard errors by which contraction must go with the force: the drift of a sensor
-may as well, by less. [-]"""
+"""Standard errors by which contraction must go with the force, whichever sweep is left
+out: the drift of a sensor may as well, by less. [-]"""
 
 
 def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]:
@@ -32,18 +32,17 @@ def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]
     """
     held = [index for index, course in enumerate(courses) if _is_held(course)]
     pulls = [_about_mean(courses[index].level("force")) for index in held]
-    power = sum(float(pull @ pull) for pull in pulls)
-    if power == 0:
+    ways = [_about_mean(courses[index].column("contraction")) for index in held]
+    power = np.array([float(pull @ pull) for pull in pulls])
+    gone = np.array([
+        float(pull @ np.nan_to_num(way)) for pull, way in zip(pulls, ways, strict=True)
+    ])  # fmt: skip
+    # Of one sweep alone it may be the way there.
+    others, left = (column.sum() - column for column in (gone, power))
+    error = (noise.slow_variance * left) ** 0.5
+    if not held or np.any(others <= CERTAIN * error):
         return list(courses)
-    ways = [courses[index].column("contraction") for index in held]
-    gone = sum(
-        float(pull @ np.where(np.isfinite(way), _about_mean(way), 0.0))
-        for pull, way in zip(pulls, ways, strict=True)
-    )
-    compliance = gone / power
-    error = (noise.slow_variance / power) ** 0.5
-    if compliance < CERTAIN * error:
-        return list(courses)
+    compliance = float(gone.sum() / power.sum())
     found = list(courses)
     for index, pull in zip(held, pulls, strict=True):
         found[index] = _yielding(courses[index], compliance * pull, compliance)
