@@ -29,10 +29,10 @@ def test_of_a_rigid_frame_noise_moves_nothing() -> None:
 
 
 def test_one_sweep_that_sets_out_on_its_way_is_no_frame_that_yields() -> None:
-    """It is shorter by 0.4 % for its first 1.5 s, while its force is least."""
+    """It is longer by 0.3 % for its first 2.5 s, while its force is least."""
     rigid = held(0.0)
     first, *others = rigid.runs
-    late = np.where(first.columns["time"] < 1.5, -4e-3, 0.0)
+    late = np.where(first.columns["time"] < 2.5, -3e-3, 0.0)
     columns = {**first.columns, "contraction": first.columns["contraction"] + late}
     told = replace(rigid, runs=(replace(first, columns=columns), *others))
     assert not any(found.yields for found in courses(told, 0.25)[0])
