@@ -14,6 +14,7 @@ from gripperd.diagnose.readings.agreement import beyond_use
 from gripperd.diagnose.readings.believed import believed
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.readings.recording import Contradiction, Recording
+from gripperd.diagnose.readings.stale import without_stale
 from gripperd.diagnose.readings.thinning import thinned
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.holdout import Split, split
@@ -131,6 +132,7 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         progress("noise and drift", 0.05)
         contradicted = beyond_use(recording)
         recording = recording if contradicted else believed(recording)
+        recording = without_stale(recording)
         recording = thinned(recording, MOST_ROWS)
         problem = problem_of(recording, model, tolerances)
         parts = split(replace(problem, processes=processes))
