@@ -6,16 +6,28 @@ References
        1995, 399-406: motion lost in a spring between actuator and load.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
 
 from gripperd.model.effect import Signal
 from gripperd.model.kinds import InGripper
-from gripperd.model.parameter import amplitude
+from gripperd.model.parameter import amplitude, choice
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
+
+
+class Measured(StrEnum):
+    """What the length that is told takes in."""
+
+    OUTSIDE = "outside"
+    """The stretch as well: the muscle itself is shorter."""
+    INSIDE = "inside"
+    """The muscle alone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +37,8 @@ class SeriesCompliance(InGripper):
     .. math:: w = w_0 + c F, \quad h = h_m + e F
 
     The jaws close less by c F; where the length is measured outside the stretch, the
-    muscle itself is shorter than measured by e F.
+    muscle itself is shorter than measured by e F. Its friction then turns round with
+    the stretch, so that no small step leads from one to the other.
     """
 
     name: ClassVar[str] = "series_compliance"
@@ -37,11 +50,18 @@ class SeriesCompliance(InGripper):
     confused_with: ClassVar[tuple[str, ...]] = ("jaw_compliance", "length_datum")
     remedy: ClassVar[str] = "stiffen the mount or the tendon of the muscle"
 
+    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
+        {Measured.INSIDE: ("shortening",)}
+    )
+
     compliance: float = amplitude(unit="mm_per_N", scale=1e-5, low=0.0, high=1e-3)
     """Opening per pull of the muscle. [m/N]"""
 
     shortening: float = amplitude(unit="per_kN", scale=3e-6, low=0.0, high=1e-4)
     """Contraction beyond the measured one, per pull of the muscle. [1/N]"""
+
+    measured: Measured = choice(Measured)  # noqa: RUF009  (declares)
+    """What the length that is told takes in."""
 
     @property
     def signal(self) -> Signal:
@@ -54,7 +74,8 @@ class SeriesCompliance(InGripper):
 
     def hidden_contraction(self, pull: Real) -> Real:
         """Contraction inside the stretch. [-]."""
-        return self.shortening * pull
+        outside = self.measured is Measured.OUTSIDE
+        return self.shortening * pull if outside else 0.0 * pull
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Opening of each moment; a slack muscle stretches nothing. [m]."""

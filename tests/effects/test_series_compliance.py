@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from gripperd.effects.series_compliance import SeriesCompliance
+from gripperd.diagnose.fit.candidates import forms
+from gripperd.effects.series_compliance import Measured, SeriesCompliance
 from gripperd.model import Muscle
 from tests.effects.tracks import track_of
 
@@ -33,3 +34,20 @@ def test_a_muscle_inside_the_stretch_is_shorter_than_measured() -> None:
     stretch = SeriesCompliance(shortening=5e-6)
     assert stretch.hidden_contraction(800.0) == pytest.approx(0.004)
     assert SeriesCompliance(compliance=1e-5).hidden_contraction(800.0) == 0.0
+
+
+def test_a_length_that_is_told_of_the_muscle_alone_is_its_own() -> None:
+    told = SeriesCompliance(shortening=5e-6, measured=Measured.INSIDE)
+    assert told.hidden_contraction(800.0) == 0.0
+
+
+def test_no_small_step_leads_from_one_length_to_the_other() -> None:
+    """So both are searched, and the one inside hides nothing."""
+    found = {form.measured: form.shortening > 0 for form in _forms()}
+    assert found == {Measured.OUTSIDE: True, Measured.INSIDE: False}
+
+
+def _forms() -> list[SeriesCompliance]:
+    return [
+        form for form in forms(SeriesCompliance) if isinstance(form, SeriesCompliance)
+    ]

@@ -157,17 +157,19 @@ def forms(kind: type[Effect]) -> list[Effect]:
         name: one.starts for name, one in known.items() if one.starts
     }
     shapes |= {name: one.choices for name, one in known.items() if one.choices}
-    typical = {name: one.scale for name, one in known.items() if one.is_amplitude}
     every = [
-        replace(
-            kind(),
-            **{name: sign * scale for name, scale in typical.items()},
-            **dict(zip(shapes, values, strict=True)),
-        )
+        _typical(replace(kind(), **dict(zip(shapes, values, strict=True))), sign)
         for sign in ((1, -1) if kind.one_sided else (1,))
         for values in product(*shapes.values())
     ]
     return [one for one in every if not _starts_again(one)]
+
+
+def _typical(effect: Effect, sign: int) -> Effect:
+    """Give it the size it usually has."""
+    known = in_use(effect, effect.idle).items()
+    scales = {name: sign * one.scale for name, one in known if one.is_amplitude}
+    return replace(effect, **scales)
 
 
 def _bases(effect: Effect) -> list[str]:

@@ -20,7 +20,7 @@ from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.creep import Creep
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal, Stage
-from gripperd.model.parameter import parameters
+from gripperd.model.parameter import in_use, parameters
 from tests.diagnose.small import MODEL, recording, without
 
 MEASURED = frozenset({"time", "current", "pressure", "contraction", "force"})
@@ -119,7 +119,8 @@ def test_every_form_acts_within_its_bounds(name: str) -> None:
                 continue
             value = getattr(form, field)
             assert one.low <= value <= one.high
-            assert value != 0 or not one.is_amplitude
+            is_used = field in in_use(form, form.idle)
+            assert (value != 0) == is_used or not one.is_amplitude
 
 
 def test_a_one_sided_effect_is_tried_to_either_side_and_stays_there(
