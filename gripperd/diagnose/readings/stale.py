@@ -53,7 +53,9 @@ def without_stale(recording: Recording) -> Recording:
 
 def _times_told(columns: Sequence[Array]) -> int:
     """How many rows tell each reading of a column; 1 if they are all its own."""
-    lengths = np.concatenate([_lengths(column) for column in columns])
+    lengths = np.concatenate([
+        _lengths(column)[np.isfinite(column[_starts(column)])] for column in columns
+    ])  # fmt: skip
     rows = np.repeat(lengths, lengths)
     usual = int(np.median(rows)) if rows.size else 1
     if not 2 <= usual <= LONGEST or np.mean(np.abs(rows - usual) <= 1) < REGULAR:

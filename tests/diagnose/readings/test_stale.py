@@ -40,6 +40,15 @@ def test_of_a_reading_that_is_told_again_the_first_counts(rows: int) -> None:
     assert np.isnan(found[~first]).all()
 
 
+def test_a_channel_that_is_read_in_one_run_alone_is_told_again_there() -> None:
+    fresh = triangle() + noise(400, 1e3)
+    told = Recording(
+        "r", "", (run(grip=np.full(400, np.nan)), run(grip=_held(fresh, 2)))
+    )
+    for found in without_stale(told).runs:
+        assert np.isnan(found.columns["grip"][1::2]).all()
+
+
 def test_it_is_remarked() -> None:
     held = _held(triangle() + noise(400, 1e3), 3)
     (remark,) = without_stale(Recording("r", "", (run(pressure=held),))).remarks
