@@ -18,6 +18,9 @@ from gripperd.model.track import Array
 CERTAIN = 5.0
 """Standard errors by which contraction must go with the force, whichever sweep is left
 out: the drift of a sensor may as well, by less. [-]"""
+LOUD = 2.0
+"""Variance about that from which it is no spring but a clearance, say, in units of the
+noise: a reading so quiet is not mended by a straight line. [-]"""
 
 
 def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]:
@@ -43,6 +46,9 @@ def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]
     if not held or np.any(others <= CERTAIN * error):
         return list(courses)
     compliance = float(gone.sum() / power.sum())
+    rest = [way - compliance * pull for way, pull in zip(ways, pulls, strict=True)]
+    if np.nanvar(np.concatenate(rest)) > LOUD * noise.std**2:
+        return list(courses)
     found = list(courses)
     for index, pull in zip(held, pulls, strict=True):
         found[index] = _yielding(courses[index], compliance * pull, compliance)

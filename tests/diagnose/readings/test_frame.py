@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.readings.cutting import courses
-from tests.diagnose.held import COMPLIANCE, SIZE, STEP, held, lengths
+from tests.diagnose.held import COMPLIANCE, SIZE, STEP, held, lengths, up_and_down
+from tests.diagnose.sweep import noise
 
 
 def test_the_length_goes_with_the_force_of_a_frame_that_yields() -> None:
@@ -36,3 +37,15 @@ def test_one_sweep_that_sets_out_on_its_way_is_no_frame_that_yields() -> None:
     columns = {**first.columns, "contraction": first.columns["contraction"] + late}
     told = replace(rigid, runs=(replace(first, columns=columns), *others))
     assert not any(found.yields for found in courses(told, 0.25)[0])
+
+
+def test_a_clearance_that_is_read_well_is_not_made_a_spring() -> None:
+    """Taken up by the first 100 N: 0.3 %, read to 0.003 %."""
+    rigid = held(0.0)
+    told = []
+    for place, one in enumerate(rigid.runs):
+        taken_up = 3e-3 * np.minimum(up_and_down() / 100.0, 1.0)
+        read = lengths(place, 0.0) + taken_up + noise(SIZE, 3e-5, 40 + place)
+        told.append(replace(one, columns={**one.columns, "contraction": read}))
+    found = courses(replace(rigid, runs=tuple(told)), 0.25)[0]
+    assert not any(course.yields for course in found)
