@@ -16,8 +16,10 @@ from gripperd.diagnose.readings.course import Course
 from gripperd.model.track import Array
 
 CERTAIN = 5.0
-"""Standard errors by which contraction must go with the force, whichever sweep is left
-out: the drift of a sensor may as well, by less. [-]"""
+"""Standard errors by which contraction must go with the force: the drift of a sensor
+may as well, by less. [-]"""
+BORNE_OUT = 3.0
+"""The same without any one sweep, in which it may be the way there. [-]"""
 LOUD = 2.0
 """Variance about that from which it is no spring but a clearance, say, in units of the
 noise: a reading so quiet is not mended by a straight line. [-]"""
@@ -40,10 +42,9 @@ def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]
     gone = np.array([
         float(pull @ np.nan_to_num(way)) for pull, way in zip(pulls, ways, strict=True)
     ])  # fmt: skip
-    # Of one sweep alone it may be the way there.
     others, left = (column.sum() - column for column in (gone, power))
-    error = (noise.slow_variance * left) ** 0.5
-    if not held or np.any(others <= CERTAIN * error):
+    certain = gone.sum() > CERTAIN * (noise.slow_variance * power.sum()) ** 0.5
+    if not certain or np.any(others <= BORNE_OUT * (noise.slow_variance * left) ** 0.5):
         return list(courses)
     compliance = float(gone.sum() / power.sum())
     rest = [way - compliance * pull for way, pull in zip(ways, pulls, strict=True)]
