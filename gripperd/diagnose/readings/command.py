@@ -109,12 +109,12 @@ def _quiet(sweep: Run, noise: Noise) -> Run:
         bending(sweep, "current", plain),
         key=lambda one: one.likelihood,
     )
-    rested = _at_rest(current, best.value, time, noise)
+    rested = _at_rest(current, best.value, noise)
     commanded = np.where(np.isfinite(current), rested, np.nan)
     return replace(sweep, columns={**sweep.columns, "current": commanded})
 
 
-def _at_rest(read: Array, value: Array, time: Array, noise: Noise) -> Array:
+def _at_rest(read: Array, value: Array, noise: Noise) -> Array:
     """Let what stays where it is, but for what is left of its noise, rest indeed."""
     out = value.copy()
     moved = compiled(_moved)(value, read, noise.std)
