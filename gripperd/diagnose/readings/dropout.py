@@ -24,7 +24,7 @@ def dropouts(runs: Sequence[Run]) -> Iterator[Fault]:
     for index, run in enumerate(runs):
         rows = _dropped(runs, run)
         if rows.any():
-            for quantity in run.columns.keys() - COMMANDED:
+            for quantity in sorted(run.columns.keys() - COMMANDED):
                 yield Fault(index, quantity, rows, REASON)
 
 

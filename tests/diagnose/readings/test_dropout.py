@@ -33,6 +33,9 @@ def test_zeros_of_all_channels_at_once_are_no_readings() -> None:
     assert {(one.count, one.reason) for one in rejected} == {
         (4, "0 in all channels at once")
     }
+    # The same at any seed of the hashes.
+    columns = [one.column for one in rejected]
+    assert columns == ["contraction", "force_N", "pressure_kPa", "temperature_C"]
 
 
 def test_a_rig_without_a_contraction_loses_rows_as_well() -> None:
