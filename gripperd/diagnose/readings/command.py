@@ -30,7 +30,7 @@ FOLLOWED = 0.3
 LATEST = 4
 """Samples by which it may follow late."""
 RESTS = 30
-"""Samples from which a command that does not move has come to rest."""
+"""Readings from which a command that does not move has come to rest."""
 FAR = 3.0
 """Standard errors within which the halves of a rest are alike. [-]"""
 
@@ -81,8 +81,8 @@ def _is_followed(sweeps: Sequence[Run]) -> bool:
                 pairs.append((current[known], pressure[known]))
     if not pairs:
         return True
-    told, got = (np.concatenate(column) for column in zip(*pairs, strict=True))
-    gain = float(np.polyfit(told, got, 1)[0])
+    currents, pressures = (np.concatenate(one) for one in zip(*pairs, strict=True))
+    gain = float(np.polyfit(currents, pressures, 1)[0])
     wiggles = [(_wiggle(gain * told), _wiggle(got)) for told, got in pairs]
     power = sum(float(asked @ asked) for asked, _ in wiggles)
     followed = max(
@@ -119,13 +119,14 @@ def _at_rest(read: Array, value: Array, noise: Noise) -> Array:
     out = value.copy()
     moved = compiled(_moved)(value, read, noise.std)
     for start, end in pairwise([*np.flatnonzero(moved).tolist(), value.size]):
-        if end - start < RESTS:
+        known = read[start:end][np.isfinite(read[start:end])]
+        if known.size < RESTS:
             continue
-        middle = (start + end) // 2
-        gone = np.nanmean(read[middle:end]) - np.nanmean(read[start:middle])
-        error = 2 * (noise.slow_variance / (end - start)) ** 0.5
+        middle = known.size // 2
+        gone = known[middle:].mean() - known[:middle].mean()
+        error = 2 * (noise.slow_variance / known.size) ** 0.5
         if abs(gone) < FAR * error:
-            out[start:end] = np.nanmean(read[start:end])
+            out[start:end] = known.mean()
     return out
 
 

@@ -1,5 +1,7 @@
 """Currents that were written, and currents that were read back."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,17 @@ def test_what_rests_is_told_as_a_mean_of_it_all() -> None:
         assert found[start + 6] == pytest.approx(
             command[start], abs=3 * READING / 44**0.5
         )
+
+
+def test_where_no_reading_is_there_is_no_rest() -> None:
+    command = _plan()
+    read = command + noise(SIZE, READING, 7)
+    read[360:] = np.nan
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = _course(command, read).column("current")
+    assert np.isnan(found[360:]).all()
+    assert np.isfinite(found[:360]).all()
 
 
 def test_a_slow_ramp_is_followed() -> None:
