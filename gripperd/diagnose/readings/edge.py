@@ -27,14 +27,14 @@ ENDS = ((0, 1), (-1, -2))
 def edges(runs: Sequence[Run]) -> Iterator[Fault]:
     """Find readings at the ends of runs that no command has made jump there."""
     for index, run in enumerate(runs):
+        stepped = [
+            run.has("current") and _jumps(run.columns["current"], *end) for end in ENDS
+        ]
+        ends = [end for end, one in zip(ENDS, stepped, strict=True) if not one]
         for quantity in sorted(run.columns.keys() - COMMANDED):
             rows = np.zeros(len(run), dtype=bool)
-            for row, neighbour in ENDS:
-                commanded = run.has("current") and _jumps(
-                    run.columns["current"], row, neighbour
-                )
-                if not commanded:
-                    rows[row] = _jumps(run.columns[quantity], row, neighbour)
+            for row, neighbour in ends:
+                rows[row] = _jumps(run.columns[quantity], row, neighbour)
             if rows.any():
                 yield Fault(index, quantity, rows, REASON)
 
