@@ -20,6 +20,11 @@ from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
+SHORTEST = 0.006
+"""Least way of the middle spring; the near one slips after a third of it. [-]"""
+AT_ONCE = 0.95
+"""Share of all that the near spring carries then, from which the force jumps. [-]"""
+
 
 @dataclass(frozen=True, slots=True)
 class PreslidingHysteresis(InMuscle):
@@ -51,7 +56,7 @@ class PreslidingHysteresis(InMuscle):
     far: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
     """Carried by the one that slips last. [N]"""
     contraction: float = shape(
-        unit=None, starts=(0.012, 0.006, 0.03), low=0.006, high=0.1
+        unit=None, starts=(0.012, 0.006, 0.03), low=SHORTEST, high=0.1
     )
     """Way of the middle spring from rest until it slips. [-]
 
@@ -64,6 +69,13 @@ class PreslidingHysteresis(InMuscle):
     loads them, -1 the other way. [-]"""
     kept: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
     """Share that is left at rest length of what a long way back to it loads. [-]"""
+
+    @property
+    def becomes(self) -> str:
+        """Dry friction, once nearly all slips within 0.2 % of contraction."""
+        total = self.near + self.middle + self.far
+        jumps = self.near > AT_ONCE * total and self.contraction <= 1.001 * SHORTEST
+        return "coulomb_friction" if jumps else ""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """What all springs carry once they slip, against the travel. [N]."""

@@ -96,6 +96,11 @@ class Effect(Protocol):
     """Name of the effect that a word it may choose is about."""
 
     @property
+    def becomes(self) -> str:
+        """Name of the effect that it is at the limits of its numbers, if another."""
+        ...
+
+    @property
     def signal(self) -> Signal:
         """The signal it changes."""
         ...

@@ -23,6 +23,11 @@ class Memoryless:
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
+    @property
+    def becomes(self) -> str:
+        """None: it stays what it is."""
+        return ""
+
     def rest(self) -> Array:
         """No memory."""
         return np.empty(0)

@@ -128,3 +128,14 @@ def test_every_closed_loop_loses_work(muscle: Muscle) -> None:
     loop = path(0.05, 0.08, 0.02, 0.05)
     pull = force(muscle, np.concatenate([loop, loop]))[loop.size :]
     assert np.trapezoid(-pull, loop) > 0.01
+
+
+@pytest.mark.parametrize(
+    ("middle", "contraction", "name"),
+    [(0.0, 0.006, "coulomb_friction"), (2.0, 0.006, ""), (0.0, 0.007, "")],
+)
+def test_springs_that_all_slip_at_once_are_dry_friction(
+    middle: float, contraction: float, name: str
+) -> None:
+    springs = PreslidingHysteresis(near=10.0, middle=middle, contraction=contraction)
+    assert springs.becomes == name

@@ -13,6 +13,7 @@ from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.limit import has_become
 from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
 
@@ -78,7 +79,9 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
             rival
             for bare, rivals in zip(without, challenged, strict=True)
             for rival in rivals
-            if rival.evidence > best.evidence + EVEN and _pays(found, bare, rival)
+            if rival.evidence > best.evidence + EVEN
+            and not has_become(rival, best)
+            and _pays(found, bare, rival)
         ]
         if not ahead:
             break
@@ -86,6 +89,10 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
         if problem.is_inflated and not _sounder(problem, best, champion):
             break
         best, without = champion, without_each(problem, champion)
+        challenged = _challenged(problem, best, without, listed)
+    named = _by_its_name(found, best, without, challenged)
+    if named is not best:
+        best, without = named, without_each(problem, named)
         challenged = _challenged(problem, best, without, listed)
     told, without = needed(problem, best, without, found.threshold)
     if told is not best:
@@ -120,10 +127,25 @@ def standing_in(found: Found, told: Contest) -> Contest:
             rival
             for rival in rivals
             if best.evidence - rival.evidence < margin
+            and not has_become(rival, best)
             and _stands_in(found, best, index, place.without, rival)
         )
         places.append(replace(place, rivals=tuple(alike)))
     return Contest(best, tuple(places))
+
+
+def _by_its_name(
+    found: Found,
+    best: Rival,
+    without: Sequence[Rival],
+    challenged: Sequence[Sequence[Rival]],
+) -> Rival:
+    """Give the best by the name of what it has become, if that explains as much."""
+    for index, (bare, rivals) in enumerate(zip(without, challenged, strict=True)):
+        for rival in rivals:
+            if has_become(best, rival) and _stands_in(found, best, index, bare, rival):
+                return rival
+    return best
 
 
 def _challenged(

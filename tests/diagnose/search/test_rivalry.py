@@ -56,8 +56,20 @@ class Third(CoulombFriction):
     name: ClassVar[str] = "third"
 
 
+@dataclass(frozen=True, slots=True)
+class Jump(CoulombFriction):
+    """The same formula, which says itself that it is dry friction."""
+
+    name: ClassVar[str] = "jump"
+
+    @property
+    def becomes(self) -> str:
+        return "coulomb_friction"
+
+
 RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
 TWIN = Candidate("twin", Twin(magnitude=20.0))
+JUMP = Candidate("jump", Jump(magnitude=20.0))
 BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
 LATE = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
 GROWS = Candidate("pressure_friction", PressureFriction())
@@ -96,6 +108,16 @@ def test_a_twin_takes_no_place(problem: Problem, own: Candidate) -> None:
     # Which of them has been fitted a little further is up to the processor.
     believed = _believing(_found(problem, RUB), own)
     assert contest(believed, (RUB, TWIN)).best.names == (own.name,)
+
+
+@pytest.mark.parametrize("own", [RUB, JUMP])
+def test_what_has_become_another_effect_goes_by_its_name(
+    problem: Problem, own: Candidate
+) -> None:
+    believed = _believing(_found(problem, RUB), own)
+    decided = contest(believed, (RUB, JUMP))
+    assert decided.best.names == ("coulomb_friction",)
+    assert decided.equivalents == ((),)
 
 
 def test_what_explains_less_is_no_equivalent(problem: Problem) -> None:
