@@ -16,6 +16,7 @@ from gripperd.diagnose.noise.smoothing import (
 )
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
+from gripperd.diagnose.readings.legs import borne_out
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.travel import contracting, leaning, reversal
 from gripperd.model.track import Array
@@ -66,7 +67,7 @@ def levels(
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
         bent = bending(sweep, "contraction", found["contraction"])
-        found["contraction"] = _steady(_unswung(sweep, bent))
+        found["contraction"] = _steady(sweep, _unswung(sweep, bent))
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs
@@ -90,7 +91,7 @@ def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
     return smooth(time, contraction, variance, SUPPLE, tried=OF_LENGTH)
 
 
-def _steady(known: Smooth) -> Smooth:
+def _steady(sweep: Run, known: Smooth) -> Smooth:
     """Take the wiggles out: there is no travel below the least, and none back.
 
     What remembers would take each wiggle for a reversal. Between reversals the column
@@ -99,7 +100,8 @@ def _steady(known: Smooth) -> Smooth:
     value = known.value
     if not np.isfinite(value).all():
         return known
-    signs = contracting(known)
+    column = sweep.columns["contraction"]
+    signs = borne_out(contracting(known), column, known.variance)
     cuts = [0, *(np.flatnonzero(np.diff(signs)) + 1), value.size]
     out = value.copy()
     for start, end in pairwise(cuts):
