@@ -69,7 +69,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         Signal.FORCE: rough.force,
         Signal.GRIP: rough.grip,
     }
-    beside = rest = np.nan_to_num(course.column("force") - course.level("force"))
+    beside = rest = _of_nearest(course.column("force") - course.level("force"))
     for sensor in reversed(sensors):
         if sensor.signal is Signal.FORCE:
             beside = _rest(sensor, beside, rough)
@@ -102,6 +102,20 @@ def _rest(sensor: SensorEffect, rest: Array, track: Runs) -> Array:
         return rest
     places = track.each(sensor.truth, np.arange(float(rest.size)))
     return np.asarray(rest[np.rint(places).astype(int)])
+
+
+def _of_nearest(rest: Array) -> Array:
+    """Give samples that were not read what the nearest one leaves out; 0 if none was.
+
+    A slow channel has such samples between others. Without noise there, a delay that
+    reaches them would seem to explain what it only silences.
+    """
+    read = np.flatnonzero(np.isfinite(rest))
+    if not read.size:
+        return np.zeros_like(rest)
+    between = (read[1:] + read[:-1]) / 2
+    nearest: Array = rest[read[np.searchsorted(between, np.arange(rest.size))]]
+    return nearest
 
 
 def _pressure_at(explanation: Explanation, course: Course) -> Array:

@@ -8,10 +8,13 @@ from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.track import directions, track_of
+from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.length_datum import LengthDatum
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
+    STEP,
     altered,
     moments,
     recording,
@@ -49,6 +52,22 @@ def test_a_channel_that_is_read_early_is_ahead_by_its_rate(
     told, plain = (track_of(one, silent["a"], 0).pressure for one in (early, MODEL))
     # 40 kPa/s on the way up, so a tenth of a second is 4 kPa.
     np.testing.assert_allclose((plain - told)[5:45], 4e3, rtol=0.02)
+
+
+def test_a_late_force_is_as_noisy_where_it_is_not_read() -> None:
+    def halved(column: Array) -> Array:
+        return np.where(np.arange(column.size) % 2 == 0, column, np.nan)
+
+    course = _courses(altered(recording(), moments(), "force", halved))["a"]
+    # Past the middle of the way to the next row, in which there is no reading.
+    late = ChannelDelay(delay=0.6 * STEP, channel=Signal.FORCE)
+    track = track_of(MODEL.with_effect(late), course, 0)
+    own = (course.column("force") - course.level("force"))[:-2:2]
+    told = own + track.beside[:-2:2]
+    following = (course.column("force") - course.level("force"))[2::2]
+    # Either neighbour is as near: one of the two readings, never none.
+    nearer = np.isclose(told, own) | np.isclose(told, following)
+    assert nearer.all()
 
 
 def test_another_rest_length_is_another_contraction(silent: dict[str, Course]) -> None:
