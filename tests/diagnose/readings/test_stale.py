@@ -26,7 +26,10 @@ def _held(column: Array, rows: int) -> Array:
 
 
 def _read(column: Array) -> Array:
-    told = Recording("r", "", (run(pressure=column), run("b", pressure=column)))
+    fresh = noise(column.size, 3.0)
+    told = Recording(
+        "r", "", tuple(run(name, pressure=column, force=fresh) for name in "ab")
+    )
     found = without_stale(told)
     return found.runs[1].columns["pressure"]
 
@@ -42,11 +45,49 @@ def test_of_a_reading_that_is_told_again_the_first_counts(rows: int) -> None:
 
 def test_a_channel_that_is_read_in_one_run_alone_is_told_again_there() -> None:
     fresh = triangle() + noise(400, 1e3)
+    pull = noise(400, 3.0)
     told = Recording(
-        "r", "", (run(grip=np.full(400, np.nan)), run(grip=_held(fresh, 2)))
+        "r",
+        "",
+        (
+            run(grip=np.full(400, np.nan), force=pull),
+            run(grip=_held(fresh, 2), force=pull),
+        ),
     )
     for found in without_stale(told).runs:
         assert np.isnan(found.columns["grip"][1::2]).all()
+
+
+def test_a_row_in_which_all_is_told_again_is_none() -> None:
+    fresh, pull = triangle() + noise(400, 1e3), 100.0 + noise(400, 3.0)
+    still = np.full(400, 0.1)
+    told = run(
+        current=_held(1e-8 * triangle(), 2),
+        pressure=_held(fresh, 2),
+        contraction=still,
+        force=_held(pull, 2),
+        # Slower still, and so told again in rows that are others' own.
+        supply=_held(6e5 + noise(400, 1e3, 4), 4),
+    )
+    (found,) = without_stale(Recording("r", "", (told,))).runs
+    assert found.columns["time"] == pytest.approx(0.2 * np.arange(200))
+    assert np.array_equal(found.columns["pressure"], fresh[::2])
+    assert np.array_equal(found.columns["force"], pull[::2])
+    assert np.array_equal(found.columns["contraction"], still[::2])
+
+
+@pytest.mark.parametrize("step", [0.0, 8e3])
+def test_beside_a_channel_that_goes_on_rows_stay(step: float) -> None:
+    pressure = triangle() + noise(400, 1e3)
+    if step:
+        # A coarse converter: two of three readings are like the one before.
+        pressure = np.round(triangle() / step) * step
+        assert 0.5 < np.mean(np.diff(pressure) == 0) < 0.8
+    pull = 100.0 + noise(400, 3.0)
+    told = run(pressure=pressure, force=_held(pull, 2))
+    (found,) = without_stale(Recording("r", "", (told,))).runs
+    assert np.array_equal(found.columns["pressure"], pressure)
+    assert np.array_equal(found.columns["force"][::2], pull[::2])
 
 
 def test_it_is_remarked() -> None:
