@@ -12,6 +12,7 @@ from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.agreement import beyond_use
 from gripperd.diagnose.readings.believed import believed
+from gripperd.diagnose.readings.clock import with_prompt_command
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.readings.recording import Contradiction, Recording
 from gripperd.diagnose.readings.stale import without_stale
@@ -132,7 +133,7 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         progress("noise and drift", 0.05)
         contradicted = beyond_use(recording)
         recording = recording if contradicted else believed(recording)
-        recording = without_stale(recording)
+        recording = with_prompt_command(without_stale(recording))
         recording = thinned(recording, MOST_ROWS)
         problem = problem_of(recording, model, tolerances)
         parts = split(replace(problem, processes=processes))
