@@ -46,8 +46,13 @@ class LinkageBacklash(InGripper):
     width: float = amplitude(unit="mm", scale=0.3e-3, low=0.0, high=20e-3)
     """Opening lost at a reversal. [m]"""
     begun: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
-    """Where in the gap a record begins: 0 in its middle, 1 on the side to which the way
-    there went, closing to a contraction or opening to rest length, -1 on the other. [-]
+    """Where in the gap a record begins at a contraction: 0 in its middle, 1 on the side
+    to which closing to it went, -1 on the other. [-]"""
+    parked: float = shape(unit=None, starts=(0.0,), low=-1.0, high=1.0)
+    """The same at rest length, 1 on the side to which opening to it went. [-]
+
+    There nothing has to pull any more: jaws that were pushed open by hand, or by their
+    own spring, lie on the other.
     """
 
     closed: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
@@ -65,8 +70,9 @@ class LinkageBacklash(InGripper):
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Opening behind the gap. [m]."""
         if np.isnan(memory[0]) and value.size:
-            side = min(2 * track.contraction[0] / AT_REST - 1, 1.0)
-            memory[0] = value[0] + self.begun * max(side, -1.0) * self.width / 2
+            away = min(max(track.contraction[0] / AT_REST, 0.0), 1.0)
+            side = away * self.begun - (1 - away) * self.parked
+            memory[0] = value[0] + side * self.width / 2
         half, pressed = self.width / 2, self.closed * (track.grip > PRESSING)
         free = np.asarray((1 - pressed) * half, np.float64)
         return play(value + pressed * half, free, memory)

@@ -43,11 +43,22 @@ def test_a_record_may_begin_on_the_side_where_the_way_there_left_it(
     muscle: Muscle,
 ) -> None:
     # Opening to rest length leaves the jaws closer, closing leaves them further apart.
-    effect = LinkageBacklash(width=WIDTH, begun=1.0)
+    effect = LinkageBacklash(width=WIDTH, begun=1.0, parked=1.0)
     for contraction, side in ((0.0, -1), (0.005, 0), (0.01, 1), (0.2, 1)):
         track = track_of(muscle, contraction=np.full(3, contraction))
         found = effect.along(np.full(3, 0.05), track, effect.rest())
         assert found == pytest.approx(np.full(3, 0.05 + side * WIDTH / 2))
+
+
+def test_jaws_at_rest_length_may_lie_on_the_side_to_which_they_never_went(
+    muscle: Muscle,
+) -> None:
+    """Pushed open by hand: as far apart as closing leaves them."""
+    effect = LinkageBacklash(width=WIDTH, begun=1.0, parked=-1.0)
+    for contraction in (-0.001, 0.0, 0.005, 0.01, 0.2):
+        track = track_of(muscle, contraction=np.full(3, contraction))
+        found = effect.along(np.full(3, 0.05), track, effect.rest())
+        assert found == pytest.approx(np.full(3, 0.05 + WIDTH / 2))
 
 
 def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
