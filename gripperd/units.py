@@ -17,6 +17,7 @@ SI_PER_UNIT = {
     "N_per_mm_s": 1e3,
     "N_per_mm": 1e3,
     "mA_per_s": MILLI,
+    "kPa_per_s": KILO,
     "m_per_s2": 1.0,
     "mm_per_N": MILLI,
     "N_per_s": 1.0,

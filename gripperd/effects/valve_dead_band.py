@@ -7,18 +7,22 @@ References
        section 2.3: play.
 .. [3] M. A. A. S. Choudhury, N. F. Thornhill, S. L. Shah, "Modelling valve stiction",
        Control Eng. Pract. 13(5), 641-658, 2005: stick band and slip jump.
+.. [4] K. J. Åström, T. Hägglund, "Advanced PID Control", ISA, 2006, chapter 3: on-off
+       control with hysteresis.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
 
 from gripperd.model.kinds import InValve
 from gripperd.model.memory import begin, play
-from gripperd.model.parameter import amplitude, choice
-from gripperd.model.spool import slides, sticking
+from gripperd.model.parameter import amplitude, choice, shape
+from gripperd.model.spool import slides, sticking, waking
 from gripperd.model.track import Array, Track
 
 
@@ -29,11 +33,17 @@ class Spool(StrEnum):
     """It follows half a width behind."""
     STICKS = "sticks"
     """It slips to the command, and follows it until that turns round again."""
+    WAKES = "wakes"
+    """It goes to the command, all the way or nearly, and rests again."""
 
 
 @dataclass(frozen=True, slots=True)
 class ValveDeadBand(InValve):
     """Play of half the width on the pressure, or stiction of the whole.
+
+    Two spools side by side, each with its play, leave the band one after the other. A
+    regulator of two valves that open and shut wakes once the error is as large as the
+    width, and lets both be shut once it is small [4]_: it need not turn round to rest.
 
     It begins where the pressure is. Predictions of a steady pressure take the middle of
     the band.
@@ -50,11 +60,25 @@ class ValveDeadBand(InValve):
         "approach each current from the same side, or use a finer regulator"
     )
     turns: ClassVar[str] = "current"
+    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({
+        Spool.TRAILS: ("short", "speed"), Spool.STICKS: ("spread", "short", "speed"),
+        Spool.WAKES: ("spread",),
+    })  # fmt: skip
 
     width: float = amplitude(unit="kPa", scale=15e3, low=0.0, high=100e3)
     """Reversal of the command that is not followed. [Pa]"""
     spool: Spool = choice(Spool)  # noqa: RUF009  (declares)
     """What it does beyond."""
+    spread: float = shape(unit=None, starts=(0.0, 0.4), low=0.0, high=1.0)
+    """By how much two spools that trail side by side differ from their mean. [-]"""
+    short: float = shape(unit=None, starts=(0.1,), low=0.01, high=0.9)
+    """Share of the width that one that wakes leaves when it rests. [-]"""
+    speed: float = shape(unit="kPa_per_s", starts=(200e3, 800e3), low=50e3, high=5e6)
+    """At which it sets out, a width away; nearer it is slower in proportion. [Pa/s]
+
+    So what has no band is not late. Slower than 50 kPa/s no regulator is that needs a
+    fraction of a second to fill a muscle.
+    """
 
     def rest(self) -> Array:
         """A spool that has not begun."""
@@ -62,10 +86,25 @@ class ValveDeadBand(InValve):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Pressure behind the band. [Pa]."""
-        sticks = self.spool is Spool.STICKS
         if np.isnan(memory[0]) and np.isfinite(track.pressure[0]):
-            memory[0] = track.pressure[0]
-            memory[1] = slides(value, track.pressure, self.width) if sticks else 0.0
-        if sticks:
+            memory[:] = self._begun(value, track.pressure)
+        if self.spool is Spool.WAKES:
+            law = (self.short, self.speed)
+            return waking(value, track.step, self.width, law, memory)
+        if self.spool is Spool.STICKS:
             return sticking(value, self.width, memory)
-        return play(value, self.width / 2, memory)
+        shares = (1 + self.spread, 1 - self.spread)
+        wide, narrow = (
+            play(value, share * self.width / 2, memory[place : place + 1])
+            for place, share in enumerate(shares)
+        )
+        return (wide + narrow) / 2
+
+    def _begun(self, value: Array, pressure: Array) -> tuple[float, float, float]:
+        """Memory of a spool at the first pressure that was measured."""
+        second = 0.0
+        if self.spool is Spool.TRAILS:
+            second = pressure[0]
+        elif self.spool is Spool.STICKS:
+            second = slides(value, pressure, self.width)
+        return pressure[0], second, np.nan

@@ -1,10 +1,12 @@
-"""A spool that sticks where its command turns round, and catches up.
+"""A spool that sticks where its command turns or where it has got to, and catches up.
 
 References
 ----------
 .. [1] M. A. A. S. Choudhury, N. F. Thornhill, S. L. Shah, "Modelling valve stiction",
        Control Eng. Pract. 13(5), 641-658, 2005: here the slip jump J is as wide as dead
        band and stick band together, S.
+.. [2] K. J. Åström, T. Hägglund, "Advanced PID Control", ISA, 2006, chapter 3: on-off
+       control with hysteresis; here of an inlet and an outlet valve.
 """
 
 import numpy as np
@@ -14,6 +16,9 @@ from gripperd.model.track import Array
 
 TURNS = 0.1
 """Share of the band by which a command has to turn round: less is its own noise. [-]"""
+
+PIECES = 8
+"""Steps from sample to sample in which a regulator wakes, goes, and rests again."""
 
 
 def sticking(command: Array, band: float, state: Array) -> Array:
@@ -30,6 +35,29 @@ def sticking(command: Array, band: float, state: Array) -> Array:
         command came. It begins stuck, and at the first sample if that is not known.
     """
     return compiled(_sticking)(command, band, state)
+
+
+def waking(
+    command: Array, step: Array, band: float, law: tuple[float, float], state: Array
+) -> Array:
+    """Rest until the command is a band away, go there as a lag, and rest again [2]_.
+
+    Parameters
+    ----------
+    command
+        Shape ``(n,)``; straight from sample to sample.
+    step
+        Time since the sample before, shape ``(n,)``. [s]
+    band
+        In units of the command.
+    law
+        Share of the band that it leaves when it rests [0..1], and speed at which it
+        sets out, in units of the command. [1/s]
+    state
+        Shape ``(3,)``: where it is; 1 awake, or 0; the command so far. It begins
+        asleep, and at the first sample if that is not known.
+    """
+    return compiled(_waking)(command, step, band, law, state)
 
 
 def slides(command: Array, followed: Array, band: float) -> float:
@@ -74,4 +102,29 @@ def _sticking(command: Array, band: float, state: Array) -> Array:
             last, end = goal, goal
         out[index] = last
     state[0], state[1], state[2] = last, way, end
+    return out
+
+
+def _waking(
+    command: Array, step: Array, band: float, law: tuple[float, float], state: Array
+) -> Array:
+    out = np.empty_like(command)
+    short, speed = law
+    last, awake, told = state[0], state[1] > 0, state[2]
+    for index in range(command.size):
+        goal = told if np.isnan(command[index]) else command[index]
+        if np.isnan(told):
+            told = goal
+        if np.isnan(last):
+            last = goal
+        kept = np.exp(-step[index] / PIECES * speed / band) if band > 0 else 0.0
+        for piece in range(1, PIECES + 1):
+            here = told + (goal - told) * piece / PIECES
+            awake = awake or abs(here - last) > band
+            if awake:
+                last = here + (last - here) * kept
+                awake = abs(here - last) > short * band
+        told = goal
+        out[index] = last
+    state[0], state[1], state[2] = last, 1.0 if awake else 0.0, told
     return out

@@ -1,6 +1,6 @@
 """A rig whose regulator sticks: pressure alone, from the description of its spool."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -53,6 +53,22 @@ def sticks(command: Array, band: float) -> Array:
     return np.array(found)
 
 
+def doubled(command: Array, band: float) -> Array:
+    """Two spools of unlike bands feed the outlet alike."""
+    return (trails(command, 0.6 * band) + trails(command, 1.4 * band)) / 2
+
+
+def ladders() -> dict[str, Array]:
+    """Stairs of treads of 4 to 40 kPa: some bands follow them, others not. [Pa]"""
+    rng = np.random.default_rng(5)
+    found = {}
+    for name in "abcdef":
+        ways = rng.uniform(4e3, 40e3, 16) * rng.choice([-1.0, 1.0], 16)
+        found[name] = np.repeat(250e3 + np.cumsum(ways), 30)
+    found["vent"], found["hold"] = np.zeros(160), np.full(160, 300e3)
+    return found
+
+
 def commands() -> dict[str, Array]:
     """Ramps of several heights, round turns, small reversals, stairs and holds. [Pa]"""
     phase = np.linspace(0.0, 2 * np.pi, 240)
@@ -71,10 +87,15 @@ def commands() -> dict[str, Array]:
     return found | {"again": found["ramp_480"], "round_again": found["round"]}
 
 
-def stuck(spool: Spool, band: float, seed: int = 1) -> Recording:
-    """What the sensors say of such a spool."""
+def stuck(
+    spool: Spool,
+    band: float,
+    seed: int = 1,
+    asked: Mapping[str, Array] | None = None,
+) -> Recording:
+    """What the sensors say of such a spool, asked for these pressures or the usual."""
     runs, start = [], 0.0
-    for place, (name, command) in enumerate(commands().items()):
+    for place, (name, command) in enumerate((asked or commands()).items()):
         time = start + STEP * np.arange(command.size)
         current = 0.004 + 0.016 * command / 500e3
         columns: dict[str, Array] = {

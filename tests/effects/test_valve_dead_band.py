@@ -65,3 +65,31 @@ def test_how_it_began_is_taken_from_the_pressure_that_was_measured(
     assert _stuck(UP_DOWN, muscle, UP_DOWN)[:5].tolist() == UP_DOWN[:5].tolist()
     waited = np.where(UP_DOWN > WIDTH, UP_DOWN, 300.0)
     assert _stuck(UP_DOWN, muscle, waited)[:5].tolist() == [300.0] * 5
+
+
+def test_two_spools_that_trail_leave_the_band_one_after_the_other(
+    muscle: Muscle,
+) -> None:
+    """Of bands of 2 and 6 kPa, in parallel: half as far between, then as far."""
+    effect = ValveDeadBand(width=WIDTH, spread=0.5)
+    track = track_of(muscle, command=UP_DOWN, pressure=UP_DOWN)
+    found = effect.along(UP_DOWN, track, effect.rest())
+    assert found[10:101] == pytest.approx(UP_DOWN[10:101] - WIDTH / 2)
+    back = [98e3, 98e3, 98e3, 97.5e3, 97e3, 96.5e3, 96e3, 95e3, 94e3]
+    assert found[100:109] == pytest.approx(back)
+
+
+def test_one_that_wakes_rests_where_the_command_does_not_turn(muscle: Muscle) -> None:
+    asked = 1e3 * np.repeat([0, 50, 53, 56, 53, 50], 20)
+    effect = ValveDeadBand(width=WIDTH, spool=Spool.WAKES, short=0.02, speed=50e3)
+    track = track_of(muscle, command=asked, pressure=0 * asked)
+    found = effect.along(asked, track, effect.rest())[19::20]
+    assert found == pytest.approx(1e3 * np.array([0, 50, 50, 56, 56, 50]), abs=100)
+
+
+def test_one_that_wakes_begins_where_the_pressure_is(muscle: Muscle) -> None:
+    asked = np.full(30, 50e3)
+    effect = ValveDeadBand(width=WIDTH, spool=Spool.WAKES)
+    for off in (-3e3, 3e3):
+        track = track_of(muscle, command=asked, pressure=asked + off)
+        assert (effect.along(asked, track, effect.rest()) == asked + off).all()

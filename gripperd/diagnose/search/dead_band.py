@@ -15,6 +15,8 @@ from gripperd.model.effect import Signal
 
 DEAD_BAND, WIDTH = "valve_dead_band", "width"
 """Effect that a band is named by, and its parameter that tells how wide it is."""
+FORETOLD = "wakes"
+"""Its form that goes in stairs itself."""
 
 
 def with_dead_band(problem: Problem, listed: Sequence[Candidate]) -> Problem:
@@ -35,7 +37,10 @@ def with_dead_band(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     -------
     The problem with its band [Pa], or as it came if it explains less that way.
     """
-    bands = [one for one in listed if one.name == DEAD_BAND]
+    # One that wakes foretells each stair: how wide the band is the middle has to tell.
+    bands = [
+        one for one in listed if one.name == DEAD_BAND and FORETOLD not in one.kind
+    ]
     stepped = any(course.on_stairs for course in problem.courses)
     if not bands or not stepped or Signal.PRESSURE not in problem.signals:
         return problem

@@ -12,11 +12,29 @@ from gripperd.diagnose.statement import statement
 from gripperd.diagnose.verdict.conclude import Verdict, conclude
 from gripperd.effects import EFFECTS
 from gripperd.model.effect import Signal
-from tests.diagnose.sleeping import NOISE, Spool, rounds, sleeps, sticks, stuck, trails
+from tests.diagnose.sleeping import (
+    NOISE,
+    Spool,
+    commands,
+    doubled,
+    ladders,
+    rounds,
+    sleeps,
+    sticks,
+    stuck,
+    trails,
+)
 from tests.diagnose.small import MODEL
 
 COLUMNS = frozenset({"time", "current", "pressure"})
 BAND = 25e3
+VALVES = {
+    name: EFFECTS[name]
+    for name in (
+        "valve_dead_band", "valve_lag", "valve_nonlinearity", "valve_offset",
+        "valve_gain", "supply_saturation", "channel_delay",
+    )
+}  # fmt: skip
 
 
 def _read(spool: Spool, *known: str) -> Problem:
@@ -48,14 +66,7 @@ def test_a_band_that_nothing_could_name_is_none() -> None:
 
 @pytest.mark.parametrize("spool", [sleeps, trails, sticks])
 def test_a_dead_band_is_named_however_a_spool_leaves_it(spool: Spool) -> None:
-    library = {
-        name: EFFECTS[name]
-        for name in (
-            "valve_dead_band", "valve_lag", "valve_nonlinearity", "valve_offset",
-            "valve_gain", "supply_saturation", "channel_delay",
-        )
-    }  # fmt: skip
-    told = diagnose(stuck(spool, BAND), MODEL, {}, library)
+    told = diagnose(stuck(spool, BAND), MODEL, {}, VALVES)
     assert told.verdict is Verdict.NAMED
     (entry,) = told.named
     assert entry.name == "valve_dead_band"
@@ -72,3 +83,23 @@ def test_what_lies_within_the_band_is_not_held_against_what_is_named() -> None:
     residual = np.concatenate(told.split.train.residuals(told.explained))
     assert np.std(residual) > 2 * NOISE
     assert conclude(told.split.train, told.found, told.contest).signals == ()
+
+
+@pytest.mark.parametrize("band", [10e3, 15e3])
+def test_which_treads_one_that_rests_on_each_will_follow_is_foretold(
+    band: float,
+) -> None:
+    told = diagnose(stuck(sleeps, band, asked=ladders()), MODEL, {}, VALVES)
+    assert [entry.name for entry in told.named] == ["valve_dead_band"]
+    assert told.verdict is Verdict.NAMED
+    assert told.split.train.band == 0.0
+    gap = told.gaps[Signal.PRESSURE]
+    assert gap.after < min(1.3 * NOISE, 0.8 * gap.recalibrated)
+
+
+def test_a_band_that_is_left_little_by_little_is_foretold() -> None:
+    told = diagnose(stuck(doubled, 60e3, asked=commands()), MODEL, {}, VALVES)
+    assert [entry.name for entry in told.named] == ["valve_dead_band"]
+    assert told.verdict is Verdict.NAMED
+    gap = told.gaps[Signal.PRESSURE]
+    assert gap.after < 1.05 * NOISE

@@ -76,7 +76,7 @@ def test_what_the_leader_may_be_in_other_words_is_heard_however_it_ranks(
     blank: Problem,
 ) -> None:
     """What sticks beyond a threshold has a low rank before it is fitted."""
-    trails, sticks = (
+    trails, sticks, wakes = (
         Candidate("valve_dead_band", ValveDeadBand(width=5e3, spool=spool))
         for spool in Spool
     )
@@ -88,15 +88,29 @@ def test_what_the_leader_may_be_in_other_words_is_heard_however_it_ranks(
         )
     ]  # fmt: skip
     point = Point(np.zeros(len(blank.constants)))
-    around = design(blank, point, (trails, *others, sticks))
+    around = design(blank, point, (trails, *others, sticks, wakes))
     ranked = {one: -float(place) for place, one in enumerate(around.members)}
     alone = {
         members[0].candidate
         for members in finalists(blank, around, ranked, thrifty=True)
         if len(members) == 1
     }
-    assert {trails, sticks} <= alone
+    assert {trails, sticks, wakes} <= alone
     assert others[-1] not in alone
+
+
+def test_two_forms_of_one_name_are_no_pair(blank: Problem) -> None:
+    forms = [
+        Candidate("valve_dead_band", ValveDeadBand(width=5e3, spool=spool))
+        for spool in Spool
+    ]
+    offset = Candidate("valve_offset", ValveOffset(offset=2e3))
+    around = design(blank, Point(np.zeros(len(blank.constants))), (*forms, offset))
+    ranked = {one: -float(place) for place, one in enumerate(around.members)}
+    told = finalists(blank, around, ranked, thrifty=True)
+    pairs = [{one.candidate.name for one in members} for members in told[4:]]
+    assert pairs
+    assert all(names == {"valve_dead_band", "valve_offset"} for names in pairs)
 
 
 def test_nothing_is_fitted_when_nothing_leaves_a_trace(blank: Problem) -> None:
