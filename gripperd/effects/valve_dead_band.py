@@ -65,7 +65,7 @@ class ValveDeadBand(InValve):
         Spool.WAKES: ("spread",),
     })  # fmt: skip
 
-    width: float = amplitude(unit="kPa", scale=15e3, low=0.0, high=100e3)
+    width: float = amplitude(unit="kPa", scale=15e3, low=0.0, high=100e3, decides=True)
     """Reversal of the command that is not followed. [Pa]"""
     spool: Spool = choice(Spool)  # noqa: RUF009  (declares)
     """What it does beyond."""

@@ -27,6 +27,8 @@ class Parameter:
     """Values from which a shape is searched, none for an amplitude."""
     choices: tuple[StrEnum, ...] = ()
     """All values of a parameter that is a word, none for a number."""
+    decides: bool = False
+    """Whether it is a threshold: by a small step most stays, and a little leaps."""
     switches: bool = False
     """Whether 0 is a law of its own, to and from which no small step leads."""
 
@@ -42,10 +44,16 @@ class Parameter:
 
 
 def amplitude(
-    *, unit: str | None, scale: float, low: float, high: float, default: float = 0.0
+    *,
+    unit: str | None,
+    scale: float,
+    low: float,
+    high: float,
+    default: float = 0.0,
+    decides: bool = False,
 ) -> Any:  # noqa: ANN401  (as dataclasses.field)
     """Declare a parameter the effect is proportional to, at least when it is small."""
-    known = Parameter(unit, low, high, scale=scale)
+    known = Parameter(unit, low, high, scale=scale, decides=decides)
     return field(default=default, metadata={_KEY: known})
 
 

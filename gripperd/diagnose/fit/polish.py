@@ -14,6 +14,7 @@ import numpy as np
 
 from gripperd.diagnose.fit.design import limits, problem_prior
 from gripperd.diagnose.fit.gram import bounded
+from gripperd.diagnose.fit.sizes import sized
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.response import Base, change, responses, sensitivities
@@ -78,6 +79,7 @@ def polished(problem: Problem, point: Point) -> Polished:
     point
         Where to start; its effects stay, their numbers move.
     """
+    point = sized(problem, point)
     coordinates = _coordinates(problem, point)
     low, high = bounds(problem, point, coordinates)
     cost, white = _cost(problem, point, coordinates)

@@ -11,6 +11,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.statement import statement
 from gripperd.diagnose.verdict.conclude import Verdict, conclude
 from gripperd.effects import EFFECTS
+from gripperd.effects.valve_dead_band import ValveDeadBand
 from gripperd.model.effect import Signal
 from tests.diagnose.sleeping import (
     NOISE,
@@ -95,6 +96,13 @@ def test_which_treads_one_that_rests_on_each_will_follow_is_foretold(
     assert told.split.train.band == 0.0
     gap = told.gaps[Signal.PRESSURE]
     assert gap.after < min(1.3 * NOISE, 0.8 * gap.recalibrated)
+
+
+def test_a_band_far_from_the_usual_is_found() -> None:
+    told = diagnose(stuck(sleeps, 6e3, asked=ladders()), MODEL, {}, VALVES)
+    (effect,) = told.explained.effects[-1:]
+    assert isinstance(effect, ValveDeadBand)
+    assert effect.width == pytest.approx(6e3, rel=0.1)
 
 
 def test_a_band_that_is_left_little_by_little_is_foretold() -> None:
