@@ -53,7 +53,13 @@ def finalists(
         if thrifty
         else [(one,) for one in around.members]
     )
-    pairs = sorted(combinations(best, 2), key=lambda pair: -around.fit(*pair).evidence)
+    # Two forms of one name are no pair: the second takes the place of the first.
+    couples = (
+        (one, other)
+        for one, other in combinations(best, 2)
+        if one.candidate.name != other.candidate.name
+    )
+    pairs = sorted(couples, key=lambda pair: -around.fit(*pair).evidence)
     return [*alone, *heard(problem, singles, pairs, FINALISTS)]
 
 
