@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gripperd.diagnose.noise.corners import cornered
 from gripperd.diagnose.noise.trend import RARE, cheapest, filtered, smoothed
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
@@ -46,6 +47,8 @@ class Smooth(NamedTuple):
     """Rows of samples to which it leapt, one after the other."""
     doubt: Array | float = 0.0
     """Standard deviation of the value, as the whole column has it."""
+    broken: bool = False
+    """Whether it was given every corner that can be told from noise."""
 
 
 def smooth(  # noqa: PLR0913  (a column, its noise, and what it may do)
@@ -56,6 +59,7 @@ def smooth(  # noqa: PLR0913  (a column, its noise, and what it may do)
     leap: float = np.inf,
     *,
     bends: bool = False,
+    breaks: bool = False,
     tried: Array = STIFFNESSES,
 ) -> Smooth:
     """Take the noise off one column of one run.
@@ -76,6 +80,8 @@ def smooth(  # noqa: PLR0913  (a column, its noise, and what it may do)
     bends
         Whether it may be stiffer in some places than in others: between the corners of
         a staircase than at them.
+    breaks
+        Whether its slope may be another one from a sample on, and as stiff again.
     tried
         Stiffnesses, of which it takes the likeliest.
     """
@@ -86,20 +92,12 @@ def smooth(  # noqa: PLR0913  (a column, its noise, and what it may do)
     scaled = (column - np.nanmean(column)) / scale
     step = np.diff(time, prepend=time[0])
     fast = UNKNOWN if np.isinf(leap) else _usual_rate(scaled, step)
-    laws = [
-        compiled(filtered)(scaled, step, np.full(step.size, one), leap, fast)[0]
-        for one in tried
-    ]
-    densities = np.stack(laws)
-    path: NDArray[np.int64] = (
-        compiled(cheapest)(densities, CORNER)
-        if bends
-        else np.full(step.size, np.argmax(densities.sum(1)))
+    stiffness, likelihood = (
+        cornered(scaled, step, tried, fast)
+        if breaks
+        else _stiffness(scaled, step, tried, (leap, fast), bends=bends)
     )
-    stiffness = tried[path]
-    density = compiled(filtered)(scaled, step, stiffness, leap, fast)[0]
-    likelihood = density.sum() - CORNER * np.count_nonzero(np.diff(path))
-    stiffness *= supple
+    stiffness = stiffness * supple
     _, states, spreads, leaps = compiled(filtered)(scaled, step, stiffness, leap, fast)
     level, slope, left = compiled(smoothed)(states, spreads, step, stiffness, leaps)
     rows = _rows(leaps > 0)
@@ -112,7 +110,26 @@ def smooth(  # noqa: PLR0913  (a column, its noise, and what it may do)
         rows,
         # Rounding may leave less than nothing of what begins so wide.
         np.sqrt(np.maximum(left, 0.0)) * scale,
+        breaks,
     )
+
+
+def _stiffness(
+    scaled: Array, step: Array, tried: Array, begun: tuple[float, float], *, bends: bool
+) -> tuple[Array, float]:
+    """Likeliest stiffness of each sample, and its log density. [nat]."""
+    laws = [
+        compiled(filtered)(scaled, step, np.full(step.size, one), *begun)[0]
+        for one in tried
+    ]
+    densities = np.stack(laws)
+    path: NDArray[np.int64] = (
+        compiled(cheapest)(densities, CORNER)
+        if bends
+        else np.full(step.size, np.argmax(densities.sum(1)))
+    )
+    density = compiled(filtered)(scaled, step, tried[path], *begun)[0]
+    return tried[path], density.sum() - CORNER * np.count_nonzero(np.diff(path))
 
 
 def _usual_rate(scaled: Array, step: Array) -> float:

@@ -74,7 +74,9 @@ def levels(
         )
     elif "pressure" in found:
         leapt = leaping(sweep, "pressure", found["pressure"])
-        found["pressure"] = bending(sweep, "pressure", leapt)
+        found["pressure"] = breaking(
+            sweep, "pressure", bending(sweep, "pressure", leapt)
+        )
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -138,6 +140,19 @@ def bending(sweep: Run, name: str, plain: Smooth) -> Smooth:
         return plain
     # Between its corners it is known better than at them, where it may turn round.
     return bent._replace(spread=max(bent.spread, plain.spread))
+
+
+def breaking(sweep: Run, name: str, plain: Smooth) -> Smooth:
+    """Column that goes straight on from corner to corner, if that is likelier.
+
+    What a trend cuts off the corners of a cycle, or leaves of the noise in its holds,
+    comes back in every one: the force seems to go with the pressure once more.
+    """
+    column, time = sweep.columns[name], sweep.columns["time"]
+    broken = smooth(time, column, plain.variance, breaks=True, tried=_tried(name))
+    if broken.likelihood <= plain.likelihood:
+        return plain
+    return broken._replace(spread=max(broken.spread, plain.spread))
 
 
 def _unswung(sweep: Run, plain: Smooth) -> Smooth:

@@ -75,7 +75,8 @@ def _missed(course: Course, name: str) -> Mask:
     There the neighbours lie off to one side, which their noise alone does not.
     """
     known = course.smooth.get(name)
-    if known is None or known.variance <= 0:
+    # What a trend with its corners leaves is noise, which is off now and then.
+    if known is None or known.variance <= 0 or known.broken:
         return np.zeros(len(course), dtype=bool)
     off = np.nan_to_num(course.column(name) - known.value)
     # A sample in the middle of a step is left out as such, and not those around it.

@@ -139,6 +139,18 @@ def test_a_staircase_of_ramps_without_a_command_rests_between_its_corners() -> N
     assert np.std((course.level("pressure") - true)[rests]) < 0.35 * 2e3
 
 
+def test_cycles_without_a_command_keep_their_corners_and_rest_in_their_holds() -> None:
+    # Up in 1.5 s, held for 3 s, and down: the muscle travels meanwhile. 12 times.
+    time = np.arange(0.0, 72.0, 0.09)
+    knots, levels = [0.0, 1.5, 4.5, 6.0], [120e3, 360e3, 360e3, 120e3]
+    true = np.interp(time % 6.0, knots, levels)
+    (course,) = cut(run(time=time, pressure=true + noise(time.size, 2e3)))
+    off = course.level("pressure") - true
+    assert np.sqrt(np.mean(off**2)) < 1e3
+    corner = np.abs(time % 6.0 - 1.5) < 0.1
+    assert abs(np.mean(off[corner])) < 1.2e3
+
+
 def test_what_is_quieter_than_told_does_not_leap() -> None:
     time = np.linspace(0.0, 39.9, 400)
     column = 300e3 + 200e3 * np.sin(time)
