@@ -12,10 +12,18 @@ EMPTY: Mapping[str, float] = MappingProxyType({"current": 4e-3, "pressure": 0.0}
 """What a muscle without air reads, the better witness last: the live zero of its
 command, IEC 60381-1 [A], and gauge pressure. [Pa]"""
 
+FULL, VENTED = 0.5, 0.25
+"""Shares of the fullest above which a muscle is inflated, and under which it is not."""
+HALF = 0.5
+"""Share of its peak down to which it goes, and up from there as much, in a cycle that
+does not vent it: rubber and braid tire of that as well. [-]"""
+
 
 def cycles(sweeps: Sequence[Run]) -> list[Array]:
     """Inflations finished before each sample: half way up, then down to a quarter.
 
+    One from which the pressure falls by half and doubles again is over as well: many
+    test stands cycle a muscle without venting it.
     Where the pressure was not measured, the command tells.
 
     Parameters
@@ -28,20 +36,26 @@ def cycles(sweeps: Sequence[Run]) -> list[Array]:
     One array for each sweep, shape ``(n,)``.
     """
     done = 0.0
-    filled = False
+    peak, trough = 0.0, np.inf
     counts: list[Array] = []
     for share in _shares(sweeps):
         count = np.full(share.size, done)
         for index, value in enumerate(share):
-            if value > 0.5:
-                filled = True
-            elif filled and value < 0.25:
-                filled = False
-                done += 1
+            if not peak:
+                peak = value if value > FULL else 0.0
+            elif value < VENTED:
+                done, peak, trough = done + 1, 0.0, np.inf
+            elif np.isinf(trough):
+                peak = max(peak, value)
+                trough = value if value < HALF * peak else np.inf
+            else:
+                trough = min(trough, value)
+                if value > max(FULL, trough / HALF):
+                    done, peak, trough = done + 1, value, np.inf
             count[index] = done
         # The rig rests between runs, which ends an inflation.
-        if filled:
-            filled, done = False, done + 1
+        if peak:
+            done, peak, trough = done + 1, 0.0, np.inf
         counts.append(count)
     return counts
 

@@ -27,6 +27,31 @@ def test_inflations_are_counted_when_they_end() -> None:
     assert (first.cycle[-1], second.cycle[0], second.cycle[-1]) == (2, 2, 4)
 
 
+def test_a_muscle_that_is_cycled_without_being_vented_tires_of_every_cycle() -> None:
+    # To 480 kPa and back to 170 kPa, five times, of 500 kPa in all.
+    down_up = np.concatenate(
+        [np.linspace(480e3, 170e3, 40), np.linspace(170e3, 480e3, 40)]
+    )
+    up, down = np.linspace(0.0, 480e3, 60), np.linspace(480e3, 0.0, 60)
+    fatiguing = np.concatenate([up, np.tile(down_up, 4), down])
+    first, second = _cut(
+        run("x", pressure=fatiguing), _after(run("y", pressure=triangle(100)), 500.0)
+    )
+    assert first.cycle[-1] == 5
+    assert second.cycle[0] == 5
+    assert (np.diff(first.cycle) <= 1).all()
+
+
+def test_a_pressure_that_is_changed_by_less_is_one_inflation() -> None:
+    # Minor loops between 480 and 300 kPa.
+    down_up = np.concatenate(
+        [np.linspace(480e3, 300e3, 40), np.linspace(300e3, 480e3, 40)]
+    )
+    up, down = np.linspace(0.0, 480e3, 60), np.linspace(480e3, 0.0, 60)
+    (course,) = _cut(run("x", pressure=np.concatenate([up, np.tile(down_up, 4), down])))
+    assert course.cycle[-1] == 1
+
+
 def test_a_run_that_ends_inflated_ends_an_inflation() -> None:
     up = np.linspace(0.0, 500e3, 100)
     held = np.full(100, 400e3)
