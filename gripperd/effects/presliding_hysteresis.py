@@ -5,13 +5,9 @@ References
 .. [1] T. Vo-Minh, T. Tjahjowidodo, H. Ramon, H. Van Brussel, "A new approach to
        modeling hysteresis in a pneumatic artificial muscle using the Maxwell-slip
        model", IEEE/ASME Trans. Mechatronics 16(1), 177-186, 2011.
-.. [2] I. D. Mayergoyz, "Mathematical Models of Hysteresis and Their Applications",
-       2nd ed., Elsevier, 2003, chapter 1: Preisach's model.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
@@ -19,9 +15,8 @@ import numpy as np
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
-from gripperd.model.parameter import amplitude, choice, shape
+from gripperd.model.parameter import amplitude, shape
 from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried
-from gripperd.model.preisach import Hysteron, Relays
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -33,12 +28,10 @@ AT_ONCE = 0.95
 
 @dataclass(frozen=True, slots=True)
 class PreslidingHysteresis(InMuscle):
-    """Maxwell-slip [1]_: springs that slip after a third, one, three radii; or relays.
+    """Maxwell-slip: springs over contraction that slip after a third, one, three radii.
 
     See :func:`gripperd.model.prandtl.carried`. Far from a reversal all slip, and what
-    is left is dry friction. Relays [2]_ of one and three radii instead take force where
-    there is no way back as well, see :class:`gripperd.model.preisach.Relays`. They are
-    a curve with memory as data have it: nothing holds their loop to lose work.
+    is left is dry friction.
     """
 
     name: ClassVar[str] = "presliding_hysteresis"
@@ -55,10 +48,6 @@ class PreslidingHysteresis(InMuscle):
         "always approach a grip from the same side, from well beyond the last reversal"
     )
     turns: ClassVar[str] = "contraction"
-    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({
-        Hysteron.STOP: ("narrow", "wide", "radius", "centre", "spread", "level"),
-        Hysteron.RELAY: ("near", "middle", "far", "contraction"),
-    })  # fmt: skip
 
     near: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
     """Carried by the spring that slips first. [N]"""
@@ -81,34 +70,16 @@ class PreslidingHysteresis(InMuscle):
     kept: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
     """Share that is left at rest length of what a long way back to it loads. [-]"""
 
-    hysteron: Hysteron = choice(Hysteron)  # noqa: RUF009  (declares)
-    """What remembers."""
-    narrow: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
-    """Taken by the narrow relays with all of them up. [N]"""
-    wide: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
-    """Taken by those three times as wide. [N]"""
-    radius: float = shape(unit=None, starts=(0.015, 0.04), low=0.008, high=0.1)
-    """Half the width of the narrow ones. [-]"""
-    centre: float = shape(unit=None, starts=(0.1,), low=0.0, high=0.3)
-    """Mean contraction at which relays switch. [-]"""
-    spread: float = shape(unit=None, starts=(0.05,), low=0.02, high=0.15)
-    """How far they lie apart. [-]"""
-    level: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
-    """Share of them that is up where they take no force. [-]"""
-
     @property
     def becomes(self) -> str:
         """Dry friction, once nearly all slips within 0.2 % of contraction."""
         total = self.near + self.middle + self.far
         jumps = self.near > AT_ONCE * total and self.contraction <= 1.001 * SHORTEST
-        slips = self.hysteron is Hysteron.STOP and jumps
-        return "coulomb_friction" if slips else ""
+        return "coulomb_friction" if jumps else ""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """Once all springs slip, against the travel; of relays what is up. [N]."""
-        if self.hysteron is Hysteron.STOP:
-            return -at.direction * (self.near + self.middle + self.far)
-        return -self._relays.settled(at.contraction, at.direction, self._taken)
+        """What all springs carry once they slip, against the travel. [N]."""
+        return -at.direction * (self.near + self.middle + self.far)
 
     def rest(self) -> Array:
         """Three springs without load."""
@@ -119,23 +90,8 @@ class PreslidingHysteresis(InMuscle):
         if np.isnan(track.came[:1]).all():
             # What was never inflated has not come back from anywhere.
             kept = self.kept if np.all(track.cycle[:1] >= 1) else 0.0
-            begin_at(track.contraction, self._reach, self.begun, memory, kept)
+            begin_at(track.contraction, self.contraction, self.begun, memory, kept)
         else:
-            begin_after(track.contraction, self._reach, track.came[0], memory)
-        if self.hysteron is Hysteron.RELAY:
-            taken = self._relays.taken(track.contraction, self._taken, memory[1:])
-            return value - taken
-        springs = (self.near, self.middle, self.far)
-        return value - carried(track.contraction, self.contraction, springs, memory)
-
-    @property
-    def _reach(self) -> float:
-        return self.contraction if self.hysteron is Hysteron.STOP else self.radius
-
-    @property
-    def _taken(self) -> tuple[float, float]:
-        return self.narrow, self.wide
-
-    @property
-    def _relays(self) -> Relays:
-        return Relays(self.radius, self.centre, self.spread, self.level)
+            begin_after(track.contraction, self.contraction, track.came[0], memory)
+        forces = (self.near, self.middle, self.far)
+        return value - carried(track.contraction, self.contraction, forces, memory)

@@ -8,7 +8,6 @@ import pytest
 
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.model import Direction, Muscle, StaticMuscle
-from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
 from tests.effects.tracks import track_of
 
@@ -140,25 +139,3 @@ def test_springs_that_all_slip_at_once_are_dry_friction(
 ) -> None:
     springs = PreslidingHysteresis(near=10.0, middle=middle, contraction=contraction)
     assert springs.becomes == name
-
-
-RELAYS = PreslidingHysteresis(
-    narrow=8.0, wide=6.0, radius=0.01, hysteron=Hysteron.RELAY
-)
-
-
-def test_relays_take_force_where_there_is_no_way_back(muscle: Muscle) -> None:
-    up = -force(muscle, path(-0.2, 0.4), RELAYS)
-    assert up[[0, -1]] == pytest.approx([0.0, 14.0], abs=0.1)
-    # As many of each group are up as have their middle a radius below.
-    behind = (0.1 - np.array([0.01, 0.03]) - RELAYS.centre) / RELAYS.spread
-    assert up[600] == pytest.approx(np.dot([8.0, 6.0], 1 / (1 + np.exp(-behind))))
-
-
-@pytest.mark.parametrize("direction", Direction)
-def test_after_a_long_way_relays_are_those_of_a_prediction(
-    muscle: Muscle, direction: Direction
-) -> None:
-    travelled = force(muscle, path(0.1 - 0.08 * direction, 0.1), RELAYS)[-1]
-    static = StaticMuscle(muscle, (RELAYS,))
-    assert static.force(0.0, 0.1, direction) == pytest.approx(travelled)
