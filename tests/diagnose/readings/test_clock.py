@@ -103,6 +103,13 @@ def test_a_current_that_was_read_back_is_told_late_too() -> None:
     assert found.remarks == (LATE,)
 
 
+def _with_late_grip(told: Recording) -> Recording:
+    """The same with a grip that is read as late as the pressure, and by one logger."""
+    (only,) = told.runs
+    grip = 1e-4 * (only.columns["pressure"] - 30e3)
+    return Recording("r", "", (Run("a", {**only.columns, "grip": grip}),))
+
+
 @pytest.mark.parametrize(
     "told",
     [
@@ -111,6 +118,9 @@ def test_a_current_that_was_read_back_is_told_late_too() -> None:
         pytest.param(_recording(lag=0.6, dead=1), id="with a dead time"),
         pytest.param(_recording(dead=2), id="more than a row late"),
         pytest.param(_recording(channel=1), id="a pressure channel that is late"),
+        pytest.param(
+            _with_late_grip(_recording(channel=1)), id="two, and a prompt one"
+        ),
         pytest.param(_recording(-1, force=False), id="nothing else to tell it from"),
         pytest.param(
             Recording("r", "", (run(pressure=noise(SIZE, 1e3)),)), id="no command"
