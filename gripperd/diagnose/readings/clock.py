@@ -123,8 +123,12 @@ def _rows(current: Array, column: Array) -> Array:
 
 def _shifted(recording: Recording, late: int) -> Recording:
     """Tell commands so many rows later; a row for which none is known then is left."""
-    when = "early" if late > 0 else "late"
-    remark = f"current_mA is told one row {when}: it was put where it was given."
+    told = ("early", "later", "first") if late > 0 else ("late", "earlier", "last")
+    when, row, left = told
+    remark = (
+        f"current_mA is logged a row {when}: it is read a row {row}, and the {left} row"
+        " of each run is left out."
+    )
     runs = tuple(
         _told(run, late) if run.has("current") else run for run in recording.runs
     )

@@ -15,8 +15,14 @@ from tests.diagnose.sweep import noise, run
 SIZE = 400
 ROW = 0.1
 """Time between rows. [s]"""
-LATE = "current_mA is told one row late: it was put where it was given."
-EARLY = "current_mA is told one row early: it was put where it was given."
+LATE = (
+    "current_mA is logged a row late: it is read a row earlier, and the last row of"
+    " each run is left out."
+)
+EARLY = (
+    "current_mA is logged a row early: it is read a row later, and the first row of"
+    " each run is left out."
+)
 
 
 def _plan(rows: float = 0.0) -> Array:
