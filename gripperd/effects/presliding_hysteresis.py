@@ -5,9 +5,13 @@ References
 .. [1] T. Vo-Minh, T. Tjahjowidodo, H. Ramon, H. Van Brussel, "A new approach to
        modeling hysteresis in a pneumatic artificial muscle using the Maxwell-slip
        model", IEEE/ASME Trans. Mechatronics 16(1), 177-186, 2011.
+.. [2] I. D. Mayergoyz, "Mathematical Models of Hysteresis and Their Applications",
+       2nd ed., Elsevier, 2003, chapter 1: Preisach's model.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
@@ -15,8 +19,9 @@ import numpy as np
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
-from gripperd.model.parameter import amplitude, shape
+from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried
+from gripperd.model.preisach import NARROWEST, PARAMETERS, Hysteron, Relays
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -28,10 +33,12 @@ AT_ONCE = 0.95
 
 @dataclass(frozen=True, slots=True)
 class PreslidingHysteresis(InMuscle):
-    """Maxwell-slip: springs over contraction that slip after a third, one, three radii.
+    """Maxwell-slip [1]_: springs that slip after a third, one, three radii; or relays.
 
     See :func:`gripperd.model.prandtl.carried`. Far from a reversal all slip, and what
-    is left is dry friction.
+    is left is dry friction. The loop of relays [2]_ closes at the ends of their way
+    instead, and a curve without a loop may go with them, see
+    :class:`gripperd.model.preisach.Relays`.
     """
 
     name: ClassVar[str] = "presliding_hysteresis"
@@ -48,6 +55,10 @@ class PreslidingHysteresis(InMuscle):
         "always approach a grip from the same side, from well beyond the last reversal"
     )
     turns: ClassVar[str] = "contraction"
+    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({
+        Hysteron.STOP: PARAMETERS,
+        Hysteron.RELAY: ("near", "middle", "far", "contraction"),
+    })  # fmt: skip
 
     near: float = amplitude(unit="N", scale=10.0, low=0.0, high=300.0)
     """Carried by the spring that slips first. [N]"""
@@ -70,16 +81,36 @@ class PreslidingHysteresis(InMuscle):
     kept: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
     """Share that is left at rest length of what a long way back to it loads. [-]"""
 
+    hysteron: Hysteron = choice(Hysteron)  # noqa: RUF009  (declares)
+    """What remembers."""
+    relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
+    """Given by the relays with all up; their loop loses work if it is positive. [N]"""
+    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=2.0)
+    """Half of that of the narrow ones, in spreads. [-]"""
+    wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
+    """Share of those three times as wide. [-]"""
+    centre: float = shape(unit=None, starts=(0.08, 0.16), low=0.0, high=0.3)
+    """Mean contraction at which relays switch. [-]"""
+    spread: float = shape(unit=None, starts=(0.05,), low=0.02, high=0.15)
+    """How far they lie apart. [-]"""
+    curve: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
+    """Share that is left of the curve they would follow without a loop. [-]"""
+    level: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Share of them that is up where that curve is nothing. [-]"""
+
     @property
     def becomes(self) -> str:
         """Dry friction, once nearly all slips within 0.2 % of contraction."""
         total = self.near + self.middle + self.far
         jumps = self.near > AT_ONCE * total and self.contraction <= 1.001 * SHORTEST
-        return "coulomb_friction" if jumps else ""
+        slips = self.hysteron is Hysteron.STOP and jumps
+        return "coulomb_friction" if slips else ""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """What all springs carry once they slip, against the travel. [N]."""
-        return -at.direction * (self.near + self.middle + self.far)
+        """Once all springs slip, against the travel; of relays what is up. [N]."""
+        if self.hysteron is Hysteron.STOP:
+            return -at.direction * (self.near + self.middle + self.far)
+        return self.relays * self._relays.settled(at.contraction, at.direction)
 
     def rest(self) -> Array:
         """Three springs without load."""
@@ -90,8 +121,22 @@ class PreslidingHysteresis(InMuscle):
         if np.isnan(track.came[:1]).all():
             # What was never inflated has not come back from anywhere.
             kept = self.kept if np.all(track.cycle[:1] >= 1) else 0.0
-            begin_at(track.contraction, self.contraction, self.begun, memory, kept)
+            begin_at(track.contraction, self._reach, self.begun, memory, kept)
         else:
-            begin_after(track.contraction, self.contraction, track.came[0], memory)
-        forces = (self.near, self.middle, self.far)
-        return value - carried(track.contraction, self.contraction, forces, memory)
+            begin_after(track.contraction, self._reach, track.came[0], memory)
+        if self.hysteron is Hysteron.RELAY:
+            up = self._relays.up(track.contraction, memory[1:])
+            return value + self.relays * up
+        springs = (self.near, self.middle, self.far)
+        return value - carried(track.contraction, self.contraction, springs, memory)
+
+    @property
+    def _reach(self) -> float:
+        stops = self.hysteron is Hysteron.STOP
+        return self.contraction if stops else self._relays.radius
+
+    @property
+    def _relays(self) -> Relays:
+        return Relays(
+            self.width, self.wide, self.centre, self.spread, self.curve, self.level
+        )

@@ -8,6 +8,7 @@ import pytest
 
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.model import Direction, Muscle, StaticMuscle
+from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
 from tests.effects.tracks import track_of
 
@@ -139,3 +140,33 @@ def test_springs_that_all_slip_at_once_are_dry_friction(
 ) -> None:
     springs = PreslidingHysteresis(near=10.0, middle=middle, contraction=contraction)
     assert springs.becomes == name
+
+
+RELAYS = PreslidingHysteresis(
+    hysteron=Hysteron.RELAY, relays=14.0, width=0.25, wide=0.4, centre=0.1, spread=0.04,
+    curve=1.0,
+)  # fmt: skip
+
+
+def test_relays_give_force_where_there_is_no_way_back(muscle: Muscle) -> None:
+    up = force(muscle, path(-0.2, 0.4), RELAYS)
+    assert up[[0, -1]] == pytest.approx([0.0, 14.0], abs=0.1)
+    # Of each group the share is up that has its middle a radius below.
+    behind = np.array([0.01, 0.03]) / 0.04
+    assert up[600] == pytest.approx(14 * np.dot([0.6, 0.4], 1 / (1 + np.exp(behind))))
+
+
+def test_relays_remember_where_the_travel_turned(muscle: Muscle) -> None:
+    loop = force(muscle, path(0.0, 0.15, 0.05, 0.15), RELAYS)
+    there, turned, back, again, end = loop[[200, 300, 400, 600, 700]]
+    assert there + 0.2 < again < back - 1
+    assert end == pytest.approx(turned)
+
+
+@pytest.mark.parametrize("direction", Direction)
+def test_after_a_long_way_relays_are_those_of_a_prediction(
+    muscle: Muscle, direction: Direction
+) -> None:
+    travelled = force(muscle, path(0.1 - 0.08 * direction, 0.1), RELAYS)[-1]
+    static = StaticMuscle(muscle, (RELAYS,))
+    assert static.force(0.0, 0.1, direction) == pytest.approx(travelled)

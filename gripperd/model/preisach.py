@@ -1,0 +1,93 @@
+"""Preisach's model of hysteresis: relays in parallel, each of its own two thresholds.
+
+References
+----------
+.. [1] I. D. Mayergoyz, "Mathematical Models of Hysteresis and Their Applications",
+       2nd ed., Elsevier, 2003, chapter 1.
+.. [2] M. Brokate, J. Sprekels, "Hysteresis and Phase Transitions", Springer, 1996,
+       section 2.4: a relay is up where the play of half its width is above its middle,
+       so that relays of one width are a function of one play.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from gripperd.model.memory import play
+from gripperd.model.prandtl import SPREAD
+from gripperd.model.real import Real
+from gripperd.model.track import Array
+
+NARROWEST = 0.15
+"""Least half width of relays in scales of their density: up and down are 7 % apart
+there, of all. Closer together they are a curve, with hardly a loop. [-]"""
+
+PARAMETERS = ("relays", "width", "wide", "centre", "spread", "curve", "level")
+"""Names of those of an effect that relays alone have."""
+
+
+class Hysteron(StrEnum):
+    """What a hysteresis is made of."""
+
+    STOP = "stop"
+    """Springs that stick, then slip: a loop as wide at the ends of a long way."""
+    RELAY = "relay"
+    """Switches that fall back later: a loop that closes at the ends of their way."""
+
+
+@dataclass(frozen=True, slots=True)
+class Relays:
+    """Two groups of relays, one three times as wide; middles of a logistic density."""
+
+    width: float
+    """Half of that of the narrow ones, in scales of the density. [-]"""
+    wide: float
+    """Share of the wide ones. [0..1]"""
+    centre: float
+    """Mean of the middles, as the signal."""
+    spread: float
+    """Scale of their density; 1.8 of it are a standard deviation. As the signal."""
+    curve: float
+    """Share that is left of the curve they would follow without a loop: 0 for their
+    memory alone. [0..1]"""
+    level: float
+    """Share of the relays that is up where that curve is nothing. [0..1]"""
+
+    @property
+    def radius(self) -> float:
+        """Half the width of the narrow ones, as the signal."""
+        return self.width * self.spread
+
+    def up(self, signal: Array, memory: Array) -> Array:
+        """Share that is up along a path, however fast it is run, less the curve. [-].
+
+        Parameters
+        ----------
+        signal
+            The path, shape ``(n,)``.
+        memory
+            Where the plays of the two radii are, shape ``(2,)``; it is moved on.
+        """
+        narrow = play(signal, self.radius, memory[:1])
+        wide = play(signal, SPREAD * self.radius, memory[1:])
+        return np.asarray(self._share(narrow, wide) - self._lost(signal))
+
+    def settled(self, signal: Real, way: Real) -> Real:
+        """Share that is up after a long way up (1) or down (-1), less the curve."""
+        return self._after(signal, way) - self._lost(signal)
+
+    def _lost(self, signal: Real) -> Real:
+        middle = 0.5 * (self._after(signal, 1.0) + self._after(signal, -1.0))
+        return (1 - self.curve) * middle + self.curve * self.level
+
+    def _after(self, signal: Real, way: Real) -> Real:
+        behind = way * self.radius
+        return self._share(signal - behind, signal - SPREAD * behind)
+
+    def _share(self, narrow: Real, wide: Real) -> Real:
+        return (1 - self.wide) * self._below(narrow) + self.wide * self._below(wide)
+
+    def _below(self, middle: Real) -> Real:
+        distance = (middle - self.centre) / self.spread
+        return 0.5 * (1 + np.tanh(0.5 * distance))
