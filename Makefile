@@ -9,7 +9,9 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 run: $(VENV)/installed
 	$(BIN)/gripperd run
 
-# Many tests wait for processes; those of one file share what it started.
+# Many tests wait for processes; those of one file share what it started. Threads for
+# their small matrices would take the cores from each other.
+test: export OPENBLAS_NUM_THREADS = 1
 test: $(VENV)/developing
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
