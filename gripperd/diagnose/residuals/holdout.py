@@ -89,10 +89,14 @@ def _spared(problem: Problem) -> set[int]:
     }
     later = [index for index in shown if index > 0]
     moved = [index for index in later if not _still(courses[index], top)]
-    inside = (set(within(courses, columns)) for columns in (CONDITIONS, PLACES))
-    inner = next(
-        (found for one in inside if (found := [i for i in moved if i in one])),
-        moved or later,
+    inside = {columns: within(courses, columns) for columns in (CONDITIONS, PLACES)}
+    columns, inner = next(
+        (
+            (columns, found)
+            for columns, one in inside.items()
+            if (found := [i for i in moved if i in one])
+        ),
+        ((), moved or later),
     )
     grasps = [index for index in shown if _gripped(courses[index])]
     # One grasp at most: the constants of the jaws are known from the others alone.
@@ -117,7 +121,20 @@ def _spared(problem: Problem) -> set[int]:
         left = [shown[place] for place in shown.keys() - spared]
         if not shown[index] <= set[Signal]().union(*left):
             spared.remove(index)
-    return spared
+    return spared - _left_alone(courses, spared & set(inner), columns)
+
+
+def _left_alone(
+    courses: Sequence[Course], spared: set[int], columns: Sequence[str]
+) -> set[int]:
+    """Sweeps that were reached as far as by none but others that are spared as well."""
+    alone: set[int] = set()
+    for index in sorted(spared, reverse=True):
+        rest = [i for i in range(len(courses)) if i == index or i not in spared - alone]
+        reached = within([courses[place] for place in rest], columns)
+        if rest.index(index) not in reached:
+            alone.add(index)
+    return alone
 
 
 def _shown(problem: Problem) -> dict[int, set[Signal]]:

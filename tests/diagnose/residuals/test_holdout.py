@@ -117,6 +117,22 @@ def test_though_none_is_as_warm_as_others_no_hold_is_spared(blank: Problem) -> N
     assert spared in {"b", "c"}
 
 
+def test_of_two_warm_sweeps_one_stays(blank: Problem, parts: Split) -> None:
+    assert len(parts.runs) == 2
+    courses = tuple(
+        replace(
+            one,
+            measured={
+                **one.measured,
+                "temperature": np.full(len(one), 40.0 if one.run in parts.runs else 22),
+            },
+        )
+        for one in blank.courses
+    )
+    (spared,) = split(replace(blank, courses=courses)).runs
+    assert spared in parts.runs
+
+
 @pytest.mark.parametrize("commanded", [True, False])
 def test_no_hold_is_spared_though_its_valve_is_shut_and_leaks(
     blank: Problem, *, commanded: bool
