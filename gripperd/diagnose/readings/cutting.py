@@ -18,7 +18,7 @@ from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.table import lists_points
-from gripperd.diagnose.readings.travel import contracting
+from gripperd.diagnose.readings.travel import JAWS, STILL, contracting
 from gripperd.errors import InputError
 from gripperd.model.track import Array
 
@@ -114,10 +114,11 @@ def _course(
     time = sweep.columns["time"]
     smoothed = levels(sweep, noises, on_stairs=on_stairs)
     known, still = smoothed.get("contraction"), stillness(sweep)
+    least = JAWS if sweep.has("opening") else STILL
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,
-        np.zeros_like(time) if known is None else contracting(known),
+        np.zeros_like(time) if known is None else contracting(known, least),
         still, still, on_stairs, start=start,
     )  # fmt: skip
 

@@ -18,7 +18,7 @@ from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.legs import borne_out
 from gripperd.diagnose.readings.recording import Run
-from gripperd.diagnose.readings.travel import contracting, leaning, reversal
+from gripperd.diagnose.readings.travel import JAWS, contracting, leaning, reversal
 from gripperd.model.track import Array
 
 SMOOTHED = (
@@ -31,6 +31,8 @@ SUPPLE = 1e4
 """A length is measured well: its corners matter more than its noise."""
 MOVES = 5e-5
 """Change of current that is a new command: 0.3 % of the span. [A]"""
+AGAIN = 2
+"""Turns that are no way there and back."""
 LEAST = 20
 """Samples that a plane is laid through."""
 
@@ -102,8 +104,7 @@ def _steady(sweep: Run, known: Smooth) -> Smooth:
     value = known.value
     if not np.isfinite(value).all():
         return known
-    column = sweep.columns["contraction"]
-    signs = borne_out(contracting(known), column, known.variance)
+    signs = _travelled(sweep, known)
     cuts = [0, *(np.flatnonzero(np.diff(signs)) + 1), value.size]
     out = value.copy()
     for start, end in pairwise(cuts):
@@ -115,6 +116,21 @@ def _steady(sweep: Run, known: Smooth) -> Smooth:
     if not signs.any():
         return known._replace(value=out, rate=0.0 * value)
     return known._replace(value=out)
+
+
+def _travelled(sweep: Run, known: Smooth) -> Array:
+    """Sign of the travel that the readings bear out; 0 throughout if there is none.
+
+    What yields in the jaws lets the muscle go to and fro by less than a trend may
+    wander. It does so again and again, and a test stand has no jaws.
+    """
+    column = sweep.columns["contraction"]
+    signs = borne_out(contracting(known), column, known.variance)
+    if signs.any() or not sweep.has("opening"):
+        return signs
+    signs = borne_out(contracting(known, JAWS), column, known.variance)
+    turns = np.count_nonzero(np.diff(signs[signs != 0]))
+    return signs if turns >= AGAIN else np.zeros_like(signs)
 
 
 def leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:

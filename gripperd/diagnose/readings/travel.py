@@ -20,6 +20,8 @@ CLEAR = 1.5
 """The same in sigma of the noise that was taken off. [-]"""
 STILL = 2.7
 """A sweep within a range of so many times that has no travel. [-]"""
+JAWS = 1.0
+"""The same of jaws, of which turns bear out that they move. [-]"""
 OVERSHOOT = 10
 """Samples of which a trend may swing past a corner. [-]"""
 STUCK = 0.06
@@ -50,10 +52,13 @@ def noticed(noise: float, least: float = TRAVEL) -> float:
     return float(np.clip(CLEAR * noise, low * least, high * least))
 
 
-def contracting(known: Smooth) -> Array:
-    """Sign of travel of a contraction; 0 throughout if there is none, or unknown."""
+def contracting(known: Smooth, still: float = STILL) -> Array:
+    """Sign of travel of a contraction; 0 throughout if there is none, or unknown.
+
+    There is none within a range of so many times the least way back.
+    """
     least = reversal(known.spread)
-    if not np.isfinite(known.value).all() or np.ptp(known.value) < STILL * least:
+    if not np.isfinite(known.value).all() or np.ptp(known.value) < still * least:
         return np.zeros_like(known.value)
     return travel(known.value, least, noticed(known.variance**0.5, least))
 

@@ -288,6 +288,28 @@ def test_a_step_may_take_many_samples_if_it_goes_one_way() -> None:
         assert (course.direction[501:] == 1.0).all()
 
 
+def test_jaws_on_what_yields_go_to_and_fro() -> None:
+    # Five grips of a soft object within 0.4 % of contraction, and 0.05 % noise.
+    time = np.arange(0.0, 21.2, 0.1)
+    true = 0.07 - 0.0021 * np.cos(2 * np.pi * time / 4.24)
+    for seed in range(6):
+        measured = true + noise(time.size, 5e-4, seed, 0.3)
+        opening = 0.09 - 0.4 * true
+        (course,) = cut(run(time=time, contraction=measured, opening=opening))
+        assert np.std(course.level("contraction") - true) < 5e-4
+        assert np.count_nonzero(np.diff(course.direction)) >= 9
+
+
+@pytest.mark.parametrize("hold", [0.07, 0.0])
+def test_jaws_that_rest_do_not_go_to_and_fro(hold: float) -> None:
+    time = np.arange(0.0, 21.2, 0.1)
+    for seed in range(20):
+        measured = hold + noise(time.size, 6.4e-4, seed, 0.6)
+        opening = 0.09 - 0.4 * hold + 0 * time
+        (course,) = cut(run(time=time, contraction=measured, opening=opening))
+        assert not course.direction.any()
+
+
 @pytest.mark.parametrize(("std", "seeds"), [(7e-4, range(20)), (1e-3, (22, 55))])
 def test_a_muscle_brought_to_its_length_before_a_hold_does_not_come_back(
     std: float, seeds: Sequence[int]
