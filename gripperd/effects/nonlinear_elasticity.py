@@ -29,7 +29,7 @@ class NonlinearElasticity(ElasticCurve):
         " length and bends otherwise than eq. (5)"
     )
     confused_with: ClassVar[tuple[str, ...]] = (
-        "rubber_elasticity", "tapered_ends", "length_datum",
+        "rubber_elasticity", "tapered_ends", "length_datum", "presliding_hysteresis",
     )  # fmt: skip
     remedy: ClassVar[str] = "add the measured elastic curve of the bladder to the model"
     basis: ClassVar[str] = "rubber_elasticity"

@@ -55,6 +55,7 @@ class PreslidingHysteresis(InMuscle):
         "always approach a grip from the same side, from well beyond the last reversal"
     )
     turns: ClassVar[str] = "contraction"
+    one_sided: ClassVar[bool] = True
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({
         Hysteron.STOP: PARAMETERS,
         Hysteron.RELAY: ("near", "middle", "far", "contraction"),
@@ -95,8 +96,6 @@ class PreslidingHysteresis(InMuscle):
     """How far they lie apart. [-]"""
     curve: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Share that is left of the curve they would follow without a loop. [-]"""
-    level: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
-    """Share of them that is up where that curve is nothing. [-]"""
 
     @property
     def becomes(self) -> str:
@@ -137,6 +136,4 @@ class PreslidingHysteresis(InMuscle):
 
     @property
     def _relays(self) -> Relays:
-        return Relays(
-            self.width, self.wide, self.centre, self.spread, self.curve, self.level
-        )
+        return Relays(self.width, self.wide, self.centre, self.spread, self.curve)

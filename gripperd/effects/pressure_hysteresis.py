@@ -49,6 +49,7 @@ class PressureHysteresis(InMuscle):
     )  # fmt: skip
     remedy: ClassVar[str] = "always reach a pressure from the same side"
     turns: ClassVar[str] = "pressure"
+    one_sided: ClassVar[bool] = True
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({
         Hysteron.STOP: PARAMETERS,
         Hysteron.RELAY: ("near", "middle", "far", "pressure"),
@@ -85,8 +86,6 @@ class PressureHysteresis(InMuscle):
     """How far they lie apart. [Pa]"""
     curve: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Share that is left of the curve they would follow without a loop. [-]"""
-    level: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
-    """Share of them that is up where that curve is nothing. [-]"""
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Once all springs slip; contracting is inflating. [N]."""
@@ -124,6 +123,4 @@ class PressureHysteresis(InMuscle):
 
     @property
     def _relays(self) -> Relays:
-        return Relays(
-            self.width, self.wide, self.centre, self.spread, self.curve, self.level
-        )
+        return Relays(self.width, self.wide, self.centre, self.spread, self.curve)

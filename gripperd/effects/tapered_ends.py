@@ -42,7 +42,9 @@ class TaperedEnds(InMuscle):
         "a deficit proportional to pressure that grows with contraction and vanishes"
         " at rest length"
     )
-    confused_with: ClassVar[tuple[str, ...]] = ("nonlinear_elasticity", "length_datum")
+    confused_with: ClassVar[tuple[str, ...]] = (
+        "nonlinear_elasticity", "length_datum", "presliding_hysteresis",
+    )  # fmt: skip
     remedy: ClassVar[str] = "give the model the contraction of the middle, factor k"
 
     excess: float = amplitude(unit=None, scale=0.1, low=-0.3, high=1.0)

@@ -19,11 +19,11 @@ from gripperd.model.prandtl import SPREAD
 from gripperd.model.real import Real
 from gripperd.model.track import Array
 
-NARROWEST = 0.15
-"""Least half width of relays in scales of their density: up and down are 7 % apart
+NARROWEST = 0.25
+"""Least half width of relays in scales of their density: up and down are 12 % apart
 there, of all. Closer together they are a curve, with hardly a loop. [-]"""
 
-PARAMETERS = ("relays", "width", "wide", "centre", "spread", "curve", "level")
+PARAMETERS = ("relays", "width", "wide", "centre", "spread", "curve")
 """Names of those of an effect that relays alone have."""
 
 
@@ -49,10 +49,8 @@ class Relays:
     spread: float
     """Scale of their density; 1.8 of it are a standard deviation. As the signal."""
     curve: float
-    """Share that is left of the curve they would follow without a loop: 0 for their
-    memory alone. [0..1]"""
-    level: float
-    """Share of the relays that is up where that curve is nothing. [0..1]"""
+    """Share that is left of the curve they would follow without a loop, from where the
+    signal is 0: none for their memory alone. [0..1]"""
 
     @property
     def radius(self) -> float:
@@ -78,8 +76,12 @@ class Relays:
         return self._after(signal, way) - self._lost(signal)
 
     def _lost(self, signal: Real) -> Real:
-        middle = 0.5 * (self._after(signal, 1.0) + self._after(signal, -1.0))
-        return (1 - self.curve) * middle + self.curve * self.level
+        return self._middle(signal) + self.curve * (
+            self._middle(0.0) - self._middle(signal)
+        )
+
+    def _middle(self, signal: Real) -> Real:
+        return 0.5 * (self._after(signal, 1.0) + self._after(signal, -1.0))
 
     def _after(self, signal: Real, way: Real) -> Real:
         behind = way * self.radius

@@ -1,6 +1,7 @@
 """What every effect promises, whoever wrote it."""
 
 from dataclasses import fields, replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from gripperd.effects import EFFECTS
 from gripperd.model import Muscle
 from gripperd.model.effect import Effect, Stage
-from gripperd.model.parameter import parameters
+from gripperd.model.parameter import in_use, parameters, words
 from gripperd.model.track import Array
 from gripperd.units import SI_PER_UNIT, split
 from tests.effects.tracks import eventful, samples
@@ -38,27 +39,55 @@ TEXTBOOK = {"rubber_elasticity", "braid_friction"}
 CURVED = {"threshold_pressure", "tapered_ends", "braid_extensibility"}
 """Not proportional to their amplitudes."""
 
-every = pytest.mark.parametrize("kind", EFFECTS.values(), ids=EFFECTS)
 MUSCLE = [kind for kind in EFFECTS.values() if kind.stage is Stage.MUSCLE]
+
+
+def spoken(kind: type[Effect]) -> list[Effect]:
+    """The effect with every word that it may choose."""
+    known = {name: one.choices for name, one in parameters(kind).items() if one.choices}
+    return [
+        replace(kind(), **dict(zip(known, words, strict=True)))
+        for words in product(*known.values())
+    ]
+
+
+def told(effect: Effect) -> str:
+    """Its name and its words."""
+    return " ".join((effect.name, *words(effect).values()))
+
+
+every = pytest.mark.parametrize("kind", EFFECTS.values(), ids=EFFECTS)
 of_the_muscle = pytest.mark.parametrize("kind", MUSCLE, ids=lambda kind: kind.name)
+each_of_the_muscle = pytest.mark.parametrize(
+    "effect", [one for kind in MUSCLE for one in spoken(kind)], ids=told
+)
 with_amplitude = pytest.mark.parametrize(
-    "kind",
-    [kind for kind in MUSCLE if kind.name not in TEXTBOOK],
-    ids=lambda kind: kind.name,
+    "effect",
+    [one for kind in MUSCLE if kind.name not in TEXTBOOK for one in spoken(kind)],
+    ids=told,
 )
 linear = pytest.mark.parametrize(
-    "kind",
-    [kind for kind in MUSCLE if kind.name not in CURVED | TEXTBOOK],
-    ids=lambda kind: kind.name,
+    "effect",
+    [
+        one
+        for kind in MUSCLE
+        if kind.name not in CURVED | TEXTBOOK
+        for one in spoken(kind)
+    ],
+    ids=told,
 )
 
 
-def with_amplitudes(kind: type[Effect], factors: Array) -> Effect:
+def amplitudes(effect: Effect) -> dict[str, float]:
+    """Typical sizes of the amplitudes that mean something beside its words."""
+    known = in_use(effect, effect.idle)
+    return {name: one.scale for name, one in known.items() if one.is_amplitude}
+
+
+def with_amplitudes(effect: Effect, factors: Array) -> Effect:
     """The effect with its amplitudes at their typical size times a factor each."""
-    known = parameters(kind)
-    scales = [(name, each.scale) for name, each in known.items() if each.is_amplitude]
-    values = {name: f * s for f, (name, s) in zip(factors, scales, strict=False)}
-    return replace(kind(), **values)
+    sizes = zip(factors, amplitudes(effect).items(), strict=False)
+    return replace(effect, **{name: factor * size for factor, (name, size) in sizes})
 
 
 def change(effect: Effect, muscle: Muscle) -> Array:
@@ -139,37 +168,33 @@ def test_every_number_of_it_is_declared(kind: type[Effect]) -> None:
 
 
 @with_amplitude
-def test_without_amplitude_there_is_no_effect(
-    kind: type[Effect], muscle: Muscle
-) -> None:
-    shapes = {
-        name: each.starts[-1] for name, each in parameters(kind).items() if each.starts
-    }
-    for effect in (kind(), replace(kind(), **shapes)):
-        assert change(effect, muscle) == pytest.approx(0.0, abs=1e-9)
+def test_without_amplitude_there_is_no_effect(effect: Effect, muscle: Muscle) -> None:
+    known = parameters(effect)
+    shapes = {name: each.starts[-1] for name, each in known.items() if each.starts}
+    for one in (effect, replace(effect, **shapes)):
+        assert change(one, muscle) == pytest.approx(0.0, abs=1e-9)
 
 
 @with_amplitude
-def test_each_amplitude_alone_shows(kind: type[Effect], muscle: Muscle) -> None:
-    count = sum(each.is_amplitude for each in parameters(kind).values())
-    for factors in np.eye(count):
-        assert np.abs(change(with_amplitudes(kind, factors), muscle)).max() > 0.05
+def test_each_amplitude_alone_shows(effect: Effect, muscle: Muscle) -> None:
+    for factors in np.eye(len(amplitudes(effect))):
+        assert np.abs(change(with_amplitudes(effect, factors), muscle)).max() > 0.05
 
 
 @linear
-def test_amplitudes_add_up(kind: type[Effect], muscle: Muscle) -> None:
-    count = sum(each.is_amplitude for each in parameters(kind).values())
+def test_amplitudes_add_up(effect: Effect, muscle: Muscle) -> None:
+    count = len(amplitudes(effect))
     weights = np.array([2.0, 0.7, 1.3])[:count]
-    alone = [change(with_amplitudes(kind, row), muscle) for row in np.eye(count)]
-    together = change(with_amplitudes(kind, weights), muscle)
+    alone = [change(with_amplitudes(effect, row), muscle) for row in np.eye(count)]
+    together = change(with_amplitudes(effect, weights), muscle)
     assert together == pytest.approx(weights @ np.array(alone), abs=1e-9)
 
 
-@of_the_muscle
+@each_of_the_muscle
 def test_a_run_given_whole_or_sample_by_sample_is_the_same(
-    kind: type[Effect], muscle: Muscle
+    effect: Effect, muscle: Muscle
 ) -> None:
-    effect = with_amplitudes(kind, np.ones(4))
+    effect = with_amplitudes(effect, np.ones(4))
     track, memory = eventful(muscle), effect.rest()
     pull = np.full_like(track.time, 100.0)
     whole = effect.along(pull, track, effect.rest())

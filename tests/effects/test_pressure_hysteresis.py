@@ -138,7 +138,7 @@ def test_relays_pull_less_while_inflating_and_alike_at_the_ends(muscle: Muscle) 
 def test_after_a_long_way_relays_are_those_of_a_prediction(
     muscle: Muscle, leverage: float
 ) -> None:
-    relays = replace(RELAYS, curve=1.0, level=0.1, leverage=leverage)
+    relays = replace(RELAYS, curve=1.0, leverage=leverage)
     reached = force(muscle, relays, 0.1)[60]
     static = StaticMuscle(muscle, (relays,))
     bare = StaticMuscle(muscle, ())

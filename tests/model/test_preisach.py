@@ -12,9 +12,7 @@ from gripperd.model.track import Array
 
 CENTRE, SPREAD = 0.1, 0.04
 NARROW, WIDE = 0.01, 0.03
-RELAYS = Relays(
-    width=0.25, wide=0.6, centre=CENTRE, spread=SPREAD, curve=1.0, level=0.0
-)
+RELAYS = Relays(width=0.25, wide=0.6, centre=CENTRE, spread=SPREAD, curve=1.0)
 SHARES = (np.arange(4000) + 0.5) / 4000
 MIDDLES = CENTRE + SPREAD * np.log(SHARES / (1 - SHARES))
 """Of equally many relays each: quantiles of the logistic distribution."""
@@ -47,16 +45,16 @@ THERE, BACK = path(-0.5, 0.7), path(0.7, -0.5)
 def test_it_is_a_bank_of_relays() -> None:
     bank = 0.4 * switched(LONG, NARROW) + 0.6 * switched(LONG, WIDE)
     assert np.ptp(bank) > 0.9
-    assert RELAYS.up(LONG, begin(2)) == pytest.approx(bank, abs=0.001)
+    # All of them are down where the path begins.
+    taken = RELAYS.up(LONG, begin(2))
+    assert taken - taken[0] == pytest.approx(bank, abs=0.001)
 
 
 def test_without_their_curve_only_the_memory_of_the_bank_is_left() -> None:
     there = switched(THERE, WIDE)
     back = switched(np.concatenate([THERE, BACK]), WIDE)[THERE.size :]
     middle = np.interp(LONG, THERE, 0.5 * (there + back[::-1]))
-    memory = Relays(
-        width=0.75, wide=0.0, centre=CENTRE, spread=SPREAD, curve=0.0, level=0.7
-    )
+    memory = Relays(width=0.75, wide=0.0, centre=CENTRE, spread=SPREAD, curve=0.0)
     expected = switched(LONG, WIDE) - middle
     assert np.ptp(expected) > 0.3
     assert memory.up(LONG, begin(2)) == pytest.approx(expected, abs=0.001)
@@ -65,7 +63,7 @@ def test_without_their_curve_only_the_memory_of_the_bank_is_left() -> None:
 @pytest.mark.parametrize("curve", [0.0, 0.3, 1.0])
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_after_a_long_way_the_past_is_forgotten(way: float, curve: float) -> None:
-    relays, end = replace(RELAYS, curve=curve, level=0.2), 0.1
+    relays, end = replace(RELAYS, curve=curve), 0.1
     travelled = relays.up(path(end - way * 0.4, end), begin(2))[-1]
     assert relays.settled(end, way) == pytest.approx(travelled)
 
@@ -77,9 +75,10 @@ def test_the_loop_closes_at_the_ends_of_the_way() -> None:
     assert opened[[0, 2]] == pytest.approx(0.0, abs=0.001)
 
 
-def test_nothing_is_up_where_as_many_are_up_as_the_level_says() -> None:
-    half = replace(RELAYS, level=0.5)
-    assert half.up(np.array([CENTRE]), begin(2)) == pytest.approx([0.0])
+def test_the_curve_begins_where_the_signal_is_nothing() -> None:
+    ways = [RELAYS.settled(0.0, way) for way in (1.0, -1.0)]
+    assert ways[0] == pytest.approx(-np.asarray(ways[1]))
+    assert ways[1] > 0.02
 
 
 def test_sample_by_sample_it_is_the_same() -> None:

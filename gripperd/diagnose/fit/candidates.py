@@ -162,7 +162,7 @@ def forms(kind: type[Effect]) -> list[Effect]:
         for sign in ((1, -1) if kind.one_sided else (1,))
         for values in product(*shapes.values())
     ]
-    return [one for one in every if not _starts_again(one)]
+    return [one for one in every if _is_possible(one) and not _starts_again(one)]
 
 
 def _typical(effect: Effect, sign: int) -> Effect:
@@ -176,6 +176,12 @@ def _bases(effect: Effect) -> list[str]:
     """Names of the effects that its words are about."""
     chosen = words(effect).values()
     return [effect.rests_on[word] for word in chosen if word in effect.rests_on]
+
+
+def _is_possible(effect: Effect) -> bool:
+    """Whether physics knows it of that sign."""
+    known = parameters(effect)
+    return all(known[name].low <= getattr(effect, name) for name in amplitudes(effect))
 
 
 def _starts_again(effect: Effect) -> bool:
