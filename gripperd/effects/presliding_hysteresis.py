@@ -10,9 +10,9 @@ References
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried
-from gripperd.model.preisach import NARROWEST, PARAMETERS, Hysteron, Relays
+from gripperd.model.preisach import BARE, NARROWEST, PARAMETERS, Hysteron, Relays
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -86,14 +86,14 @@ class PreslidingHysteresis(InMuscle):
     """What remembers."""
     relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
     """Given by the relays with all up; their loop loses work if it is positive. [N]"""
+    radius: float = shape(unit=None, starts=(0.025,), low=4e-3, high=0.035)
+    """Half the width of the narrow ones; no travel switches much wider ones. [-]"""
     width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=2.0)
-    """Half of that of the narrow ones, in spreads. [-]"""
+    """The same in scales of their density: much less, and they lie far apart. [-]"""
     wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """Share of those three times as wide. [-]"""
     centre: float = shape(unit=None, starts=(0.08, 0.16), low=0.0, high=0.3)
     """Mean contraction at which relays switch. [-]"""
-    spread: float = shape(unit=None, starts=(0.05,), low=0.02, high=0.15)
-    """How far they lie apart. [-]"""
     curve: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Share that is left of the curve they would follow without a loop. [-]"""
 
@@ -104,6 +104,13 @@ class PreslidingHysteresis(InMuscle):
         jumps = self.near > AT_ONCE * total and self.contraction <= 1.001 * SHORTEST
         slips = self.hysteron is Hysteron.STOP and jumps
         return "coulomb_friction" if slips else ""
+
+    @property
+    def forgetful(self) -> Self:
+        """Relays that fall back where they rose."""
+        if self.hysteron is Hysteron.STOP:
+            return self
+        return replace(self, radius=BARE * self.radius, width=BARE * self.width)
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Once all springs slip, against the travel; of relays what is up. [N]."""
@@ -136,4 +143,4 @@ class PreslidingHysteresis(InMuscle):
 
     @property
     def _relays(self) -> Relays:
-        return Relays(self.width, self.wide, self.centre, self.spread, self.curve)
+        return Relays(self.radius, self.width, self.wide, self.centre, self.curve)

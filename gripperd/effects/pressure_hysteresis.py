@@ -9,9 +9,9 @@ References
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.prandtl import at_rest, begin_at, carried
-from gripperd.model.preisach import NARROWEST, PARAMETERS, Hysteron, Relays
+from gripperd.model.preisach import BARE, NARROWEST, PARAMETERS, Hysteron, Relays
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
 
@@ -76,16 +76,23 @@ class PressureHysteresis(InMuscle):
     """What remembers."""
     relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
     """Given at rest length by the relays with all of them up. [N]"""
+    radius: float = shape(unit="kPa", starts=(50e3,), low=5e3, high=80e3)
+    """Half the width of the narrow ones; no muscle switches much wider ones. [Pa]"""
     width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=2.0)
-    """Half of that of the narrow ones, in spreads. [-]"""
+    """The same in scales of their density: much less, and they lie far apart. [-]"""
     wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """Share of those three times as wide. [-]"""
     centre: float = shape(unit="kPa", starts=(150e3, 350e3), low=0.0, high=1e6)
     """Mean pressure at which relays switch. [Pa]"""
-    spread: float = shape(unit="kPa", starts=(100e3,), low=20e3, high=400e3)
-    """How far they lie apart. [Pa]"""
     curve: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Share that is left of the curve they would follow without a loop. [-]"""
+
+    @property
+    def forgetful(self) -> Self:
+        """Relays that fall back where they rose."""
+        if self.hysteron is Hysteron.STOP:
+            return self
+        return replace(self, radius=BARE * self.radius, width=BARE * self.width)
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Once all springs slip; contracting is inflating. [N]."""
@@ -123,4 +130,4 @@ class PressureHysteresis(InMuscle):
 
     @property
     def _relays(self) -> Relays:
-        return Relays(self.width, self.wide, self.centre, self.spread, self.curve)
+        return Relays(self.radius, self.width, self.wide, self.centre, self.curve)

@@ -9,7 +9,7 @@ dataclass whose numbers are declared by :mod:`gripperd.model.parameter`.
 from collections.abc import Mapping
 from dataclasses import Field
 from enum import IntEnum, StrEnum
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, TypeGuard
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, Self, TypeGuard
 
 from gripperd.model.real import Real
 
@@ -98,6 +98,11 @@ class Effect(Protocol):
     @property
     def becomes(self) -> str:
         """Name of the effect that it is at the limits of its numbers, if another."""
+        ...
+
+    @property
+    def forgetful(self) -> Self:
+        """The same without a memory, where something is left of it: a curve."""
         ...
 
     @property

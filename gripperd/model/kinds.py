@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -27,6 +27,11 @@ class Memoryless:
     def becomes(self) -> str:
         """None: it stays what it is."""
         return ""
+
+    @property
+    def forgetful(self) -> Self:
+        """It stays what it is."""
+        return self
 
     def rest(self) -> Array:
         """No memory."""

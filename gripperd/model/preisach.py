@@ -23,7 +23,9 @@ NARROWEST = 0.25
 """Least half width of relays in scales of their density: up and down are 12 % apart
 there, of all. Closer together they are a curve, with hardly a loop. [-]"""
 
-PARAMETERS = ("relays", "width", "wide", "centre", "spread", "curve")
+BARE = 1e-3
+"""Share of their width of which relays have hardly a loop left. [-]"""
+PARAMETERS = ("relays", "radius", "width", "wide", "centre", "curve")
 """Names of those of an effect that relays alone have."""
 
 
@@ -40,22 +42,17 @@ class Hysteron(StrEnum):
 class Relays:
     """Two groups of relays, one three times as wide; middles of a logistic density."""
 
+    radius: float
+    """Half the width of the narrow ones, as the signal."""
     width: float
-    """Half of that of the narrow ones, in scales of the density. [-]"""
+    """The same in scales of the density; 1.8 of them are a standard deviation. [-]"""
     wide: float
     """Share of the wide ones. [0..1]"""
     centre: float
     """Mean of the middles, as the signal."""
-    spread: float
-    """Scale of their density; 1.8 of it are a standard deviation. As the signal."""
     curve: float
     """Share that is left of the curve they would follow without a loop, from where the
     signal is 0: none for their memory alone. [0..1]"""
-
-    @property
-    def radius(self) -> float:
-        """Half the width of the narrow ones, as the signal."""
-        return self.width * self.spread
 
     def up(self, signal: Array, memory: Array) -> Array:
         """Share that is up along a path, however fast it is run, less the curve. [-].
@@ -91,5 +88,5 @@ class Relays:
         return (1 - self.wide) * self._below(narrow) + self.wide * self._below(wide)
 
     def _below(self, middle: Real) -> Real:
-        distance = (middle - self.centre) / self.spread
+        distance = self.width * (middle - self.centre) / self.radius
         return 0.5 * (1 + np.tanh(0.5 * distance))

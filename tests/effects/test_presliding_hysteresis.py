@@ -143,7 +143,7 @@ def test_springs_that_all_slip_at_once_are_dry_friction(
 
 
 RELAYS = PreslidingHysteresis(
-    hysteron=Hysteron.RELAY, relays=14.0, width=0.25, wide=0.4, centre=0.1, spread=0.04,
+    hysteron=Hysteron.RELAY, relays=14.0, radius=0.01, width=0.25, wide=0.4, centre=0.1,
     curve=1.0,
 )  # fmt: skip
 

@@ -118,8 +118,8 @@ def test_a_muscle_without_ideal_pull_has_none_to_lose(muscle: Muscle) -> None:
 
 
 RELAYS = PressureHysteresis(
-    hysteron=Hysteron.RELAY, relays=40.0, width=0.25, wide=0.4, centre=200e3,
-    spread=50e3,
+    hysteron=Hysteron.RELAY, relays=40.0, radius=12.5e3, width=0.25, wide=0.4,
+    centre=200e3,
 )  # fmt: skip
 
 

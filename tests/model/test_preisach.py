@@ -12,7 +12,7 @@ from gripperd.model.track import Array
 
 CENTRE, SPREAD = 0.1, 0.04
 NARROW, WIDE = 0.01, 0.03
-RELAYS = Relays(width=0.25, wide=0.6, centre=CENTRE, spread=SPREAD, curve=1.0)
+RELAYS = Relays(radius=NARROW, width=0.25, wide=0.6, centre=CENTRE, curve=1.0)
 SHARES = (np.arange(4000) + 0.5) / 4000
 MIDDLES = CENTRE + SPREAD * np.log(SHARES / (1 - SHARES))
 """Of equally many relays each: quantiles of the logistic distribution."""
@@ -54,7 +54,7 @@ def test_without_their_curve_only_the_memory_of_the_bank_is_left() -> None:
     there = switched(THERE, WIDE)
     back = switched(np.concatenate([THERE, BACK]), WIDE)[THERE.size :]
     middle = np.interp(LONG, THERE, 0.5 * (there + back[::-1]))
-    memory = Relays(width=0.75, wide=0.0, centre=CENTRE, spread=SPREAD, curve=0.0)
+    memory = Relays(radius=WIDE, width=0.75, wide=0.0, centre=CENTRE, curve=0.0)
     expected = switched(LONG, WIDE) - middle
     assert np.ptp(expected) > 0.3
     assert memory.up(LONG, begin(2)) == pytest.approx(expected, abs=0.001)

@@ -14,6 +14,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.limit import has_become
+from gripperd.diagnose.search.loop import shows_its_loop
 from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
 
@@ -161,7 +162,10 @@ def _challenged(
     ]
     # All at once, for places may have few.
     rivals = iter(fitted(problem, [start for own in starts for start in own]))
-    return [list(islice(rivals, len(own))) for own in starts]
+    return [
+        [one for one in islice(rivals, len(own)) if shows_its_loop(problem, one)]
+        for own in starts
+    ]
 
 
 def _margin(closed: float, excess: float) -> float:

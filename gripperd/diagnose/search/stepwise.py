@@ -25,6 +25,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.finalists import finalists, heard, leaders
 from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.loop import shows_its_loop
 from gripperd.diagnose.search.preference import BORE, at_edge, preferred
 from gripperd.diagnose.search.price import worth
 
@@ -124,6 +125,7 @@ def _pass(
         thrifty = not is_table(problem.courses)
         sets = finalists(problem, around, singles, thrifty=thrifty)
         rivals += _fitted(problem, null.fit.point, sets, known)
+        rivals = [one for one in rivals if shows_its_loop(problem, one)]
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
     best = _best(problem, null, rivals, chance)
@@ -212,6 +214,7 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
         ]
         grown = larger(problem, best, more)
         grown += _with_bore(problem, best, listed)
+        grown = [one for one in grown if shows_its_loop(problem, one)]
         tried += grown
         if not grown:
             break
