@@ -86,9 +86,13 @@ class PreslidingHysteresis(InMuscle):
     """What remembers."""
     relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
     """Given by the relays with all up; their loop loses work if it is positive. [N]"""
-    radius: float = shape(unit=None, starts=(0.025,), low=4e-3, high=0.035)
-    """Half the width of the narrow ones; no travel switches much wider ones. [-]"""
-    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=2.0)
+    radius: float = shape(unit=None, starts=(0.025,), low=0.01, high=0.035)
+    """Half the width of the narrow ones. [-]
+
+    No travel switches much wider ones, and a muscle that sticks at one length has much
+    narrower ones, close together.
+    """
+    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=1.0)
     """The same in scales of their density: much less, and they lie far apart. [-]"""
     wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """Share of those three times as wide. [-]"""

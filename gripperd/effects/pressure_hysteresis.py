@@ -76,9 +76,9 @@ class PressureHysteresis(InMuscle):
     """What remembers."""
     relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
     """Given at rest length by the relays with all of them up. [N]"""
-    radius: float = shape(unit="kPa", starts=(50e3,), low=5e3, high=80e3)
+    radius: float = shape(unit="kPa", starts=(50e3,), low=20e3, high=80e3)
     """Half the width of the narrow ones; no muscle switches much wider ones. [Pa]"""
-    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=2.0)
+    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=1.0)
     """The same in scales of their density: much less, and they lie far apart. [-]"""
     wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """Share of those three times as wide. [-]"""
