@@ -142,8 +142,7 @@ class PreslidingHysteresis(InMuscle):
 
     @property
     def _reach(self) -> float:
-        stops = self.hysteron is Hysteron.STOP
-        return self.contraction if stops else self._relays.radius
+        return self.contraction if self.hysteron is Hysteron.STOP else self.radius
 
     @property
     def _relays(self) -> Relays:

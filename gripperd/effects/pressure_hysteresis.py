@@ -125,8 +125,7 @@ class PressureHysteresis(InMuscle):
 
     @property
     def _reach(self) -> float:
-        stops = self.hysteron is Hysteron.STOP
-        return self.pressure if stops else self._relays.radius
+        return self.pressure if self.hysteron is Hysteron.STOP else self.radius
 
     @property
     def _relays(self) -> Relays:

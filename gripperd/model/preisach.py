@@ -22,7 +22,6 @@ from gripperd.model.track import Array
 NARROWEST = 0.25
 """Least half width of relays in scales of their density: up and down are 12 % apart
 there, of all. Closer together they are a curve, with hardly a loop. [-]"""
-
 BARE = 1e-3
 """Share of their width of which relays have hardly a loop left. [-]"""
 PARAMETERS = ("relays", "radius", "width", "wide", "centre", "curve")
