@@ -46,8 +46,8 @@ def spoken(kind: type[Effect]) -> list[Effect]:
     """The effect with every word that it may choose."""
     known = {name: one.choices for name, one in parameters(kind).items() if one.choices}
     return [
-        replace(kind(), **dict(zip(known, words, strict=True)))
-        for words in product(*known.values())
+        replace(kind(), **dict(zip(known, chosen, strict=True)))
+        for chosen in product(*known.values())
     ]
 
 
