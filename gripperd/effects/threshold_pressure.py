@@ -38,6 +38,7 @@ class ThresholdPressure(InMuscle):
     )
     confused_with: ClassVar[tuple[str, ...]] = (
         "pressure_sensor_bias", "valve_offset", "ambient_pressure",
+        "nonlinear_elasticity",
     )  # fmt: skip
     remedy: ClassVar[str] = "raise the pressure by the threshold"
 

@@ -23,7 +23,8 @@ from gripperd.model.parameter import in_use
 from gripperd.model.track import Array
 
 ROUNDS = 12
-TRIALS = 4
+TRIALS = 7
+"""Steps that are tried in a round, each damped ten times as much as the one before."""
 DAMPED = 0.01
 """First damping after a step that did not help, of the diagonal. [-]"""
 RELATIVE = 2e-5

@@ -89,8 +89,43 @@ def worth(
     if not inflated:
         return _stands_alone(problem, best, larger, paid=paid)
     # Far above the noise it counts what an addition takes of what was left.
-    takes_much = further > MUCH * sum(best.fit.misfits[s] for s in signals)
+    left = sum(best.fit.misfits[s] for s in signals)
+    takes_much = _taken(problem, best, larger) > MUCH * left
     return (paid or takes_much) and bears_out(problem, best.fit, larger.fit, signals)
+
+
+def is_seen(problem: Problem, best: Rival, larger: Rival) -> bool:
+    """Tell whether an addition is more than noise and than what common sensors drift.
+
+    Parameters
+    ----------
+    problem
+        The recording and the model.
+    best, larger
+        An explanation, and one with more in it.
+    """
+    return (
+        larger.evidence - best.evidence > LEAST_MORE
+        and is_fault(problem, larger)
+        and _change(problem, best.fit.point, larger.fit.point) >= SEEN
+    )
+
+
+def _taken(problem: Problem, best: Rival, larger: Rival) -> float:
+    """Fall of chi² by an addition; its doubles, if it has any there, bend before."""
+    further = best.fit.cost - larger.fit.cost
+    bending = _bending(problem, best, larger)
+    if not _looks_like(best, larger, bending):
+        return further
+    before, after = (bent(problem, one, bending) for one in (best, larger))
+    return min(further, before - after)
+
+
+def _bending(problem: Problem, best: Rival, larger: Rival) -> list[str]:
+    """Effects of an explanation that act where a larger one gains, and could bend."""
+    gained = _gained(problem, best, larger)
+    there = {one.name for one in best.candidates if acts_on(problem, one) & gained}
+    return [name for name in bendable(best) if name in there & {*larger.names}]
 
 
 def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -> bool:
@@ -101,9 +136,7 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     Known to look like one that bends, it must keep most of it as well.
     """
     further = best.fit.cost - larger.fit.cost
-    gained = _gained(problem, best, larger)
-    there = {one.name for one in best.candidates if acts_on(problem, one) & gained}
-    bending = [name for name in bendable(best) if name in there & {*larger.names}]
+    bending = _bending(problem, best, larger)
     before, after = (bent(problem, one, bending) for one in (best, larger))
     unbent = before - after > UNBENT * further
     least = 2 * LEAST_MORE if unbent else LEAST_OWN * len(bending) or 2 * LEAST_MORE

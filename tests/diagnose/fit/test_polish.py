@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
+from scipy.optimize import Bounds, minimize
 
-from gripperd.diagnose.fit.polish import Coordinate, Polished, polished, slopes
+from gripperd.diagnose.fit.polish import Coordinate, Polished, bounds, polished, slopes
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.constants import MADE, NUISANCE
 from gripperd.diagnose.residuals.explanation import Explanation
@@ -12,6 +12,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.creep import Creep, Creeping
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_lag import ValveLag
@@ -232,3 +233,33 @@ def test_what_is_best_already_stays() -> None:
     again = polished(problem, once.point)
     assert again.cost <= once.cost
     assert again.cost == pytest.approx(once.cost, abs=0.5)
+
+
+def test_a_step_that_leads_too_far_is_shortened_until_it_helps() -> None:
+    problem = problem_of(recording(threshold(25.0)), MODEL, {})
+    sizes = {"fast": -0.02, "medium": -0.02, "slow": -0.02}
+    far: Effect = Creep(**sizes, time=0.7, leverage=1.0, fresh=0.7, of=Creeping.PULL)
+    found = polished(problem, _start(problem, far))
+    count, units = found.point.shifts.size, [one.unit for one in found.coordinates]
+
+    def cost(vector: Array) -> float:
+        """Chi² and prior of constants and amplitude, in their sigmas."""
+        pairs = zip(found.coordinates, vector[count:] * units, strict=True)
+        values = {one.parameter: float(value) for one, value in pairs}
+        point = Point(vector[:count], (replace(far, **values),))
+        left = enumerate(problem.residuals(point))
+        chi = sum(float(np.sum(problem.white([one], i) ** 2)) for i, one in left)
+        prior = sum(
+            (values[one.parameter] / one.unit) ** 2
+            for one in found.coordinates
+            if one.is_amplitude
+        )
+        return chi + prior + float(vector[:count] @ vector[:count])
+
+    (effect,) = found.point.effects
+    shapes = [getattr(effect, one.parameter) / one.unit for one in found.coordinates]
+    here = np.concatenate([found.point.shifts, shapes])
+    assert cost(here) == pytest.approx(found.cost)
+    box = Bounds(*bounds(problem, found.point, found.coordinates))
+    best = minimize(cost, here, method="L-BFGS-B", bounds=box, options={"maxiter": 3})
+    assert best.fun > 0.99 * found.cost

@@ -259,5 +259,33 @@ def test_far_above_the_noise_an_addition_must_foretell_the_sweeps_it_never_saw(
     assert worth(problem, null, best, larger, 20.0) is worth_it
 
 
+@pytest.mark.parametrize(
+    ("doubles", "kept", "worth_it"),
+    [((), 0.3, True), (("coulomb_friction",), 0.3, False),
+     (("coulomb_friction",), 0.5, True)],
+)  # fmt: skip
+def test_far_above_the_noise_bending_its_double_must_leave_much_of_what_was_left(
+    monkeypatch: pytest.MonkeyPatch,
+    doubles: tuple[str, ...],
+    kept: float,
+    *,
+    worth_it: bool,
+) -> None:
+    """A friction closes little beside a threshold, but most of what that left."""
+    problem = problem_of(recording(_stretches_and_rubs(9.0)), MODEL, {})
+    problem = louder(problem, {Signal.FORCE: 1.4, Signal.PRESSURE: 1.0})
+    null, best, larger = (
+        fitted(problem, *one) for one in ((), (THRESHOLD,), (THRESHOLD, RUB))
+    )
+    further = best.fit.cost - larger.fit.cost
+    assert further < 0.06 * (null.fit.cost - larger.fit.cost)
+    left = best.fit.misfits[Signal.FORCE]
+    assert further > 0.5 * left
+    bare = {1: kept * left, 2: 0.0}
+    monkeypatch.setattr(price, "bent", lambda _, rival, __: bare[len(rival.names)])
+    monkeypatch.setattr(ThresholdPressure, "confused_with", doubles)
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
 def _off_by(zero: float) -> Callable[[Array], Array]:
     return lambda reading: reading + zero

@@ -139,7 +139,7 @@ def test_a_better_rival_that_but_mends_the_rest_takes_no_place() -> None:
     One that grows with the pressure would fit far better than the bias, but is of no
     worth beside the friction.
     """
-    problem = problem_of(recording(rubbing_more(0.3)), MODEL, {})
+    problem = problem_of(recording(rubbing_more(0.1)), MODEL, {})
     listed = (RUB, GROWS, BIAS)
     wrong = _believing(_found(problem, RUB), RUB, BIAS)
     better = fitted(wrong.problem, RUB, GROWS)
