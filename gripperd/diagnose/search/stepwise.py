@@ -203,18 +203,7 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
     problem, best = found.problem, found.best
     tried: list[Rival] = []
     while 0 < len(best.candidates) < MOST:
-        around = design(problem, best.fit.point, listed)
-        base = around.fit().evidence
-        singles = {m: around.fit(m).evidence - base for m in around.members}
-        alone = [(member,) for member in leaders(singles)]
-        more = [
-            member.candidate
-            for (member,) in heard(problem, singles, alone, NEXT)
-            if singles[member] > found.threshold
-        ]
-        grown = larger(problem, best, more)
-        grown += _with_bore(problem, best, listed)
-        grown = [one for one in grown if shows_its_loop(problem, one)]
+        grown = additions(found, best, listed, NEXT)
         tried += grown
         if not grown:
             break
@@ -224,3 +213,33 @@ def _grown(found: Found, listed: Sequence[Candidate]) -> Found:
         best = champion
     rivals = sorted((*found.rivals, *tried), key=lambda rival: -rival.evidence)
     return replace(found, best=best, rivals=tuple(rivals))
+
+
+def additions(
+    found: Found, rival: Rival, listed: Sequence[Candidate], most: int
+) -> list[Rival]:
+    """Give an explanation with one more, for each of the few that promise most.
+
+    Parameters
+    ----------
+    found
+        The search.
+    rival
+        The explanation.
+    listed
+        What could be missing.
+    most
+        How many are a few.
+    """
+    problem = found.problem
+    around = design(problem, rival.fit.point, listed)
+    base = around.fit().evidence
+    singles = {m: around.fit(m).evidence - base for m in around.members}
+    alone = [(member,) for member in leaders(singles)]
+    more = [
+        member.candidate
+        for (member,) in heard(problem, singles, alone, most)
+        if singles[member] > found.threshold
+    ]
+    grown = larger(problem, rival, more) + _with_bore(problem, rival, listed)
+    return [one for one in grown if shows_its_loop(problem, one)]
