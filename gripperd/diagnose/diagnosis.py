@@ -27,7 +27,12 @@ from gripperd.diagnose.search.selection import Progress, Selection, selected
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.artefact import artefact
 from gripperd.diagnose.verdict.completion import completed
-from gripperd.diagnose.verdict.conclude import Verdict, conclude, not_confirmed
+from gripperd.diagnose.verdict.conclude import (
+    Verdict,
+    conclude,
+    not_closed,
+    not_confirmed,
+)
 from gripperd.diagnose.verdict.extrapolation import (
     Extrapolation,
     apart,
@@ -184,6 +189,7 @@ def _judged(
     if against or (gap and not gap.confirms(effects)):
         is_open = bool(imitated) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
+    conclusion = not_closed(train, conclusion, judged)
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
         points = (start, base, base)

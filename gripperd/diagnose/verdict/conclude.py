@@ -10,6 +10,7 @@ from gripperd.diagnose.fit.polish import Polished
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.gap import Gap
 from gripperd.diagnose.verdict.structure import Structure, loudness, structures
 from gripperd.model.effect import Signal
 
@@ -50,12 +51,15 @@ class Conclusion:
     """What is left with the best constants alone."""
     louder: Mapping[Signal, float] = field(default_factory=dict)
     """Times the noise that is left of a signal, if that is too much for noise. [-]"""
+    left_out: Mapping[Signal, float] = field(default_factory=dict)
+    """Times what can be reached that a signal is off in what took no part, if nothing
+    is missing in what did. [-]"""
 
     @property
     def signals(self) -> tuple[Signal, ...]:
         """Those in which more than noise is left."""
         structured = (one.signal for one in _remaining(self.left))
-        return tuple(dict.fromkeys((*structured, *self.louder)))
+        return tuple(dict.fromkeys((*structured, *self.louder, *self.left_out)))
 
 
 def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
@@ -101,6 +105,34 @@ def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
     remains = is_open or bool(_remaining(conclusion.before)) or bool(conclusion.louder)
     verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
     return replace(conclusion, verdict=verdict)
+
+
+def not_closed(
+    problem: Problem, conclusion: Conclusion, judged: Mapping[Signal, Gap]
+) -> Conclusion:
+    """Withdraw that nothing is missing where sweeps which took no part are off.
+
+    What happened in them alone no other can tell.
+
+    Parameters
+    ----------
+    problem
+        Whose full scales say what is visible.
+    conclusion
+        With a verdict.
+    judged
+        Gaps on what was left out.
+    """
+    left_out = {
+        signal: gap.left_open
+        for signal, gap in judged.items()
+        if gap.is_open and gap.recalibrated > VISIBLE * problem.full_scale[signal]
+    }
+    if conclusion.verdict is not Verdict.NONE or not left_out:
+        return conclusion
+    return replace(
+        conclusion, verdict=Verdict.UNEXPLAINED, share=0.0, left_out=left_out
+    )
 
 
 def _structured(problem: Problem, fit: Polished) -> tuple[Structure, ...]:

@@ -46,6 +46,11 @@ def signature(
         if signal in conclusion.louder:
             times = conclusion.louder[signal]
             words.append(f"{signal.value}: {times:.1f} times as loud as its noise")
+        if signal in conclusion.left_out:
+            times = conclusion.left_out[signal]
+            words.append(
+                f"{signal.value}: {times:.1f} times its noise in what took no part"
+            )
     return tuple(words)
 
 

@@ -148,3 +148,28 @@ def test_a_name_that_is_not_borne_out_leaves_what_there_was_without_it(
     named = replace(without, verdict=Verdict.NAMED)
     assert not_confirmed(named, is_open=False).verdict is verdict
     assert not_confirmed(named, is_open=True).verdict is Verdict.UNEXPLAINED
+
+
+@pytest.mark.parametrize(
+    ("newtons", "verdict"), [(0.0, Verdict.NONE), (60.0, Verdict.UNEXPLAINED)]
+)
+def test_what_happens_in_a_sweep_that_took_no_part_alone_is_unexplained(
+    newtons: float, verdict: Verdict
+) -> None:
+    plain = recording(nothing)
+    left_out = diagnose(plain, MODEL, {}, {}).held_out
+
+    def struck(force: Array) -> Array:
+        """A bump of some seconds, as somebody leans on the bench."""
+        since = np.linspace(-1.0, 1.0, force.size)
+        return force + newtons * np.exp(-((since / 0.3) ** 2))
+
+    told = diagnose(altered(plain, left_out, "force", struck), MODEL, {}, {})
+    assert told.held_out == left_out
+    assert told.verdict is verdict
+    if verdict is Verdict.UNEXPLAINED:
+        assert told.main is Signal.FORCE
+        times = told.gaps[Signal.FORCE].left_open
+        assert f"force: {times:.1f} times its noise in what took no part" in (
+            told.signature
+        )
