@@ -26,7 +26,7 @@ from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.search.selection import Progress, Selection, selected
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.artefact import artefact
-from gripperd.diagnose.verdict.completion import completed
+from gripperd.diagnose.verdict.completion import completed, remarked
 from gripperd.diagnose.verdict.conclude import (
     Verdict,
     conclude,
@@ -151,8 +151,9 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         progress("verdict", 0.9)
         parts, found = selection.parts, selection.found
         inside, _ = apart(parts)
-        best = without_refuted(parts, inside, found, selection.contest, listed)
-        best = completed(parts, inside, found, best, listed)
+        told = without_refuted(parts, inside, found, selection.contest, listed)
+        best = completed(parts, inside, found, told, listed)
+        recording = remarked(recording, told, best)
         borne_out = replace(selection, contest=best)
         return _judged(recording, borne_out, untested, seed)
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
@@ -26,6 +27,7 @@ from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.search.stepwise import MOST, additions
 from gripperd.diagnose.verdict.gap import Gap, gaps
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
+from gripperd.diagnose.verdict.key import plain
 
 HEARD = 4
 """Additions that are fitted in full."""
@@ -71,6 +73,24 @@ def completed(
         if len(best.best.candidates) <= len(told.candidates):
             break
     return best
+
+
+def remarked(recording: Recording, told: Contest, more: Contest) -> Recording:
+    """Say which names sweeps that were left out have helped to choose.
+
+    Parameters
+    ----------
+    recording
+        What was diagnosed.
+    told, more
+        The outcome without what they show, and with it.
+    """
+    names = [name for name in more.best.names if name not in told.best.names]
+    if not names:
+        return recording
+    words = ", ".join(map(plain, names))
+    remark = f"{words}: sweeps held out have helped to choose it, among {HEARD}."
+    return replace(recording, remarks=(*recording.remarks, remark))
 
 
 def _compared(parts: Split, inside: Problem, told: Rival, more: Rival) -> list[Gap]:

@@ -13,7 +13,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict import completion
-from gripperd.diagnose.verdict.completion import completed
+from gripperd.diagnose.verdict.completion import completed, remarked
 from gripperd.diagnose.verdict.gap import Gap, gaps
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
@@ -65,6 +65,16 @@ def test_what_hardly_shows_or_is_hardly_off_lacks_nothing(
     """Beside noise of 12 N sweeps are not far off, and less than 7 N sensors drift."""
     parts, found, best = _with_threshold(rubbing(newtons), noise)
     assert completed(parts, parts.test, found, best, LISTED) is best
+
+
+def test_who_has_chosen_it_is_told() -> None:
+    """The threshold is there before the sweeps that were left out have a say."""
+    whole = recording(lambda at: threshold(60.0)(at) + rubbing(12.0)(at))
+    parts, found, best = _with_threshold(rubbing(12.0))
+    more = completed(parts, parts.test, found, best, LISTED)
+    remark = "coulomb friction: sweeps held out have helped to choose it, among 4."
+    assert remarked(whole, best, more).remarks == (*whole.remarks, remark)
+    assert remarked(whole, more, more) is whole
 
 
 def test_what_closes_but_a_part_of_it_is_not_added() -> None:
