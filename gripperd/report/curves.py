@@ -64,10 +64,10 @@ def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:
     grid[1, 0].set_ylabel(f"measured - predicted [{unit}]")
     grid[0, 0].legend(loc="best", fontsize=9)
     caption = (
-        "None of these samples was used to choose or to fit anything, but for the side"
-        " to which dry friction points where a muscle is held. Above what was measured"
-        " and predicted, below the difference. Lines are broken where samples are"
-        " missing or passed over."
+        "None of these samples was used to fit anything, but for the side to which dry"
+        " friction points where a muscle is held. Above what was measured and"
+        " predicted, below the difference. Lines are broken where samples are missing"
+        " or passed over."
     )
     alt = f"{len(shown)} sweeps with the measurement and three predictions each."
     return Picture("held_out", "Sweeps that took no part", caption, alt, drawing)

@@ -48,7 +48,7 @@ class Trace:
     direction: Array
     """Of travel, 0 in a sweep without. [-1, 1]"""
     held_out: NDArray[np.bool_]
-    """Samples that took no part in choosing or fitting."""
+    """Samples that took no part in fitting."""
 
     def residual(self, state: State) -> Array:
         """Measured minus expected."""

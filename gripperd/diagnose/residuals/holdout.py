@@ -1,4 +1,4 @@
-"""Sweeps that take no part in choosing or fitting, on which the gap is judged.
+"""Sweeps that take no part in fitting, on which the gap is judged.
 
 References
 ----------
