@@ -7,6 +7,7 @@ import pytest
 
 from gripperd.effects.pressure_hysteresis import PressureHysteresis
 from gripperd.model import Direction, Muscle, StaticMuscle
+from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
 from tests.effects.tracks import track_of
 
@@ -114,3 +115,34 @@ def test_after_a_long_way_it_is_that_of_a_prediction(
 def test_a_muscle_without_ideal_pull_has_none_to_lose(muscle: Muscle) -> None:
     lost = PressureHysteresis(4.0, 8.0, 6.0, 30e3, leverage=0.5)
     assert np.all(force(muscle, lost, muscle.spent + 0.01) == 0)
+
+
+RELAYS = PressureHysteresis(
+    hysteron=Hysteron.RELAY, relays=40.0, radius=12.5e3, width=0.25, wide=0.4,
+    centre=200e3,
+)  # fmt: skip
+
+
+def test_relays_pull_less_while_inflating_and_alike_at_the_ends(muscle: Muscle) -> None:
+    wide = np.concatenate([np.linspace(0, 900e3, 91), np.linspace(900e3, 0, 91)[1:]])
+    pull = force(muscle, RELAYS, pressure=wide)
+    up, down = pull[:91], pull[90:][::-1]
+    # Of each group the share between its two ways is up on the way down alone.
+    shares = np.tanh(0.5 * np.array([0.25, 0.75]))
+    assert down[20] - up[20] == pytest.approx(40 * np.dot([0.6, 0.4], shares), rel=1e-3)
+    assert up[20] == pytest.approx(-down[20], rel=1e-3)
+    assert pull[[0, 90]] == pytest.approx([0, 0], abs=0.5)
+
+
+@pytest.mark.parametrize("leverage", [0.0, 1.0])
+def test_after_a_long_way_relays_are_those_of_a_prediction(
+    muscle: Muscle, leverage: float
+) -> None:
+    relays = replace(RELAYS, curve=1.0, leverage=leverage)
+    reached = force(muscle, relays, 0.1)[60]
+    static = StaticMuscle(muscle, (relays,))
+    bare = StaticMuscle(muscle, ())
+    expected = static.force(300e3, 0.1, Direction.CONTRACTING)
+    assert expected - bare.force(300e3, 0.1, Direction.CONTRACTING) == pytest.approx(
+        reached, rel=1e-3
+    )

@@ -111,6 +111,7 @@ def test_the_forms_of_an_effect_are_all_combinations_of_its_starts(name: str) ->
     wanted = 2 + 1 + 2 if name == "valve_dead_band" else wanted
     # Springs alone have a distance and one sign, relays alone a middle and a curve.
     wanted = 3 + 2 * (2 * 2) if name == "presliding_hysteresis" else wanted
+    wanted = 2 * (3 + 2 * (2 * 2)) if name == "pressure_hysteresis" else wanted
     found = forms(EFFECTS[name])
     assert len(set(found)) == len(found) == wanted
 

@@ -9,6 +9,7 @@ from gripperd.diagnose.search.loop import shows_its_loop
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.effects.pressure_hysteresis import PressureHysteresis
 from gripperd.model.effect import Effect
 from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
@@ -16,6 +17,7 @@ from tests.diagnose.small import MODEL, Hidden, recording
 
 RELAY = Hysteron.RELAY
 OF_WAY = PreslidingHysteresis(hysteron=RELAY, relays=-10.0, curve=1.0)
+OF_PRESSURE = PressureHysteresis(hysteron=RELAY, relays=-10.0, centre=350e3, curve=1.0)
 
 
 def _bank(signal: Array, middle: float, spread: float, half: float) -> Array:
@@ -34,11 +36,18 @@ def bank_of_way(half: float) -> Hidden:
     return lambda moment: -60.0 * _bank(moment.contraction, 0.08, 0.05, half)
 
 
+def bank_of_pressure(half: float) -> Hidden:
+    """Take as much by relays over pressure."""
+    return lambda moment: -60.0 * _bank(moment.pressure, 250e3, 80e3, half)
+
+
 @pytest.mark.parametrize(
     ("hidden", "effect", "is_seen"),
     [
         (bank_of_way(0.02), OF_WAY, True),
         (bank_of_way(0.0), OF_WAY, False),
+        (bank_of_pressure(40e3), OF_PRESSURE, True),
+        (bank_of_pressure(0.0), OF_PRESSURE, False),
         (bank_of_way(0.0), PreslidingHysteresis(near=10.0), True),
     ],
 )
@@ -51,9 +60,9 @@ def test_relays_show_a_loop_where_there_is_one_and_springs_are_nothing_else(
     assert shows_its_loop(problem, told) is is_seen
 
 
-@pytest.mark.parametrize(("half", "found"), [(0.02, True), (0.0, False)])
+@pytest.mark.parametrize(("half", "found"), [(40e3, True), (0.0, False)])
 def test_what_has_no_loop_is_not_found(half: float, *, found: bool) -> None:
-    problem = problem_of(recording(bank_of_way(half)), MODEL, {})
-    listed = [Candidate(OF_WAY.name, OF_WAY)]
+    problem = problem_of(recording(bank_of_pressure(half)), MODEL, {})
+    listed = [Candidate(OF_PRESSURE.name, OF_PRESSURE)]
     told = search(problem, listed, np.random.default_rng(0)).best.names
-    assert told == ((OF_WAY.name,) if found else ())
+    assert told == ((OF_PRESSURE.name,) if found else ())
