@@ -1,12 +1,37 @@
 """Whether the readings bear out the loop of what is called a hysteresis."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
+from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
 
 SEEN = 13.0
 """By how much likelier the readings are with a loop than with its curve alone. [nat]"""
+FAR = 100.0
+"""Mean square of what every explanation leaves, in squares of the noise, from which no
+loop is seen: a curve and a loop at will bend to whatever else is missing. [-]"""
+
+
+def discernible(problem: Problem, listed: Iterable[Candidate]) -> list[Candidate]:
+    """Give those that are no curve with a loop, if misfit is too large to see one.
+
+    Parameters
+    ----------
+    problem
+        With noise as loud as what every explanation leaves.
+    listed
+        What could be missing.
+    """
+    return [
+        one
+        for one in listed
+        if one.effect is None
+        or one.effect.forgetful is one.effect
+        or problem.inflation({one.effect.signal}) <= FAR
+    ]
 
 
 def shows_its_loop(problem: Problem, rival: Rival) -> bool:

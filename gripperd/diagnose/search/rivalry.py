@@ -14,7 +14,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.limit import has_become
-from gripperd.diagnose.search.loop import shows_its_loop
+from gripperd.diagnose.search.loop import discernible, shows_its_loop
 from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
 
@@ -156,7 +156,7 @@ def _challenged(
     listed: Sequence[Candidate],
 ) -> list[list[Rival]]:
     """Give the best with each of its strongest rivals, by the place they take."""
-    others = [one for one in listed if one.name not in best.names]
+    others = discernible(problem, [o for o in listed if o.name not in best.names])
     starts = [
         _challengers(problem, bare, index, others) for index, bare in enumerate(without)
     ]

@@ -25,7 +25,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.finalists import finalists, heard, leaders
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.loop import shows_its_loop
+from gripperd.diagnose.search.loop import discernible, shows_its_loop
 from gripperd.diagnose.search.preference import BORE, at_edge, preferred
 from gripperd.diagnose.search.price import worth
 
@@ -71,6 +71,17 @@ def search(
     rng
         For the recordings without a discrepancy.
     """
+    found = _settled(problem, listed, rng)
+    discerned = discernible(found.problem, listed)
+    if len(discerned) < len(listed):
+        found = _settled(problem, discerned, rng)
+    return _grown(found, discerned)
+
+
+def _settled(
+    problem: Problem, listed: Sequence[Candidate], rng: np.random.Generator
+) -> Found:
+    """Search until the noise is as loud as what is left; where that is far, plainly."""
     start = Point(np.zeros(len(problem.constants)))
     null = polished(problem, start)
     lost = [s for s, share in birge_ratios(null).items() if share > HOPELESS]
@@ -78,7 +89,7 @@ def search(
     inflated = [s for s, share in found.problem.inflations.items() if share > MISFIT]
     if set(inflated) - set(lost):
         found = _deflated(plain(problem, [*lost, *inflated]), listed, rng, null.point)
-    return _grown(found, listed)
+    return found
 
 
 def _deflated(
@@ -232,7 +243,7 @@ def additions(
         How many are a few.
     """
     problem = found.problem
-    around = design(problem, rival.fit.point, listed)
+    around = design(problem, rival.fit.point, discernible(problem, listed))
     base = around.fit().evidence
     singles = {m: around.fit(m).evidence - base for m in around.members}
     alone = [(member,) for member in leaders(singles)]

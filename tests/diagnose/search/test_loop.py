@@ -2,18 +2,20 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.inflation import louder
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.point import Point
-from gripperd.diagnose.search.loop import shows_its_loop
+from gripperd.diagnose.search import loop
+from gripperd.diagnose.search.loop import discernible, shows_its_loop
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.effects.pressure_hysteresis import PressureHysteresis
-from gripperd.model.effect import Effect
+from gripperd.model.effect import Effect, Signal
 from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
-from tests.diagnose.small import MODEL, Hidden, recording
+from tests.diagnose.small import MODEL, Hidden, Moment, recording
 
 RELAY = Hysteron.RELAY
 OF_WAY = PreslidingHysteresis(hysteron=RELAY, relays=-10.0, curve=1.0)
@@ -63,6 +65,39 @@ def test_relays_show_a_loop_where_there_is_one_and_springs_are_nothing_else(
 @pytest.mark.parametrize(("half", "found"), [(40e3, True), (0.0, False)])
 def test_what_has_no_loop_is_not_found(half: float, *, found: bool) -> None:
     problem = problem_of(recording(bank_of_pressure(half)), MODEL, {})
+    listed = [Candidate(OF_PRESSURE.name, OF_PRESSURE)]
+    told = search(problem, listed, np.random.default_rng(0)).best.names
+    assert told == ((OF_PRESSURE.name,) if found else ())
+
+
+@pytest.mark.parametrize(("times", "heard"), [(90.0, 2), (110.0, 0)])
+def test_relays_are_not_heard_where_misfit_is_far_too_large(
+    times: float, heard: int
+) -> None:
+    """Ten times as loud as the noise, a mean square of a hundred."""
+    problem = problem_of(recording(), MODEL, {})
+    far = louder(problem, {Signal.FORCE: times, Signal.PRESSURE: 1.0})
+    relays = [Candidate(one.name, one) for one in (OF_WAY, OF_PRESSURE)]
+    springs = PreslidingHysteresis(near=10.0)
+    others = [
+        Candidate(springs.name, springs),
+        Candidate("parameter:muscle.diameter", None, 1),
+    ]
+    assert discernible(far, [*relays, *others]) == [*relays[:heard], *others]
+    assert discernible(problem, relays) == relays
+
+
+@pytest.mark.parametrize(("far", "found"), [(40.0, True), (20.0, False)])
+def test_relays_beside_much_else_are_not_found(
+    monkeypatch: pytest.MonkeyPatch, far: float, *, found: bool
+) -> None:
+    """They take 300 N; a wave that no library holds leaves 26 squares of the noise."""
+
+    def lost(moment: Moment) -> Array:
+        return 5 * bank_of_pressure(80e3)(moment) + 60.0 * np.sin(moment.time)
+
+    monkeypatch.setattr(loop, "FAR", far)
+    problem = problem_of(recording(lost), MODEL, {})
     listed = [Candidate(OF_PRESSURE.name, OF_PRESSURE)]
     told = search(problem, listed, np.random.default_rng(0)).best.names
     assert told == ((OF_PRESSURE.name,) if found else ())
