@@ -72,9 +72,10 @@ class Relays:
         return self._after(signal, way) - self._lost(signal)
 
     def _lost(self, signal: Real) -> Real:
-        return self._middle(signal) + self.curve * (
-            self._middle(0.0) - self._middle(signal)
-        )
+        kept = self.curve * self._middle(0.0)
+        if self.curve == 1:
+            return kept
+        return kept + (1 - self.curve) * self._middle(signal)
 
     def _middle(self, signal: Real) -> Real:
         return 0.5 * (self._after(signal, 1.0) + self._after(signal, -1.0))
