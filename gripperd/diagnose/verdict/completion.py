@@ -32,8 +32,9 @@ from gripperd.diagnose.verdict.key import plain
 HEARD = 4
 """Additions that are fitted in full."""
 CLOSED = 2 / 3
-"""Share of what is open that an addition closes at least. On four rigs nobody here had
-seen what was missing closed 0.75 at least, and what was not 0.45 at most. [-]"""
+"""Share of what is open that an addition closes at least. On three rigs nobody here had
+seen what was missing closed 0.75 or more; where nothing was but the form of what was
+named, no addition closed more than 0.45. [-]"""
 
 
 def completed(
