@@ -7,6 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from gripperd.diagnose.fit.polish import Polished
+from gripperd.diagnose.residuals.holdout import FEW
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
@@ -112,7 +113,8 @@ def not_closed(
 ) -> Conclusion:
     """Withdraw that nothing is missing where sweeps which took no part are off.
 
-    What happened in them alone no other can tell.
+    What happened in them alone no other can tell. Where but the end of each is left
+    out, it goes where none of them has been.
 
     Parameters
     ----------
@@ -128,7 +130,8 @@ def not_closed(
         for signal, gap in judged.items()
         if gap.is_open and gap.recalibrated > VISIBLE * problem.full_scale[signal]
     }
-    if conclusion.verdict is not Verdict.NONE or not left_out:
+    are_whole = len(problem.courses) >= FEW
+    if conclusion.verdict is not Verdict.NONE or not (left_out and are_whole):
         return conclusion
     return replace(
         conclusion, verdict=Verdict.UNEXPLAINED, share=0.0, left_out=left_out
