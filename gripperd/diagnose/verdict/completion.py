@@ -90,7 +90,7 @@ def remarked(recording: Recording, told: Contest, more: Contest) -> Recording:
     if not names:
         return recording
     words = ", ".join(map(plain, names))
-    remark = f"{words}: sweeps held out have helped to choose it, among {HEARD}."
+    remark = f"{words}: chosen with the help of sweeps held out."
     return replace(recording, remarks=(*recording.remarks, remark))
 
 

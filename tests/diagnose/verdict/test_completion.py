@@ -72,7 +72,7 @@ def test_who_has_chosen_it_is_told() -> None:
     whole = recording(lambda at: threshold(60.0)(at) + rubbing(12.0)(at))
     parts, found, best = _with_threshold(rubbing(12.0))
     more = completed(parts, parts.test, found, best, LISTED)
-    remark = "coulomb friction: sweeps held out have helped to choose it, among 4."
+    remark = "coulomb friction: chosen with the help of sweeps held out."
     assert remarked(whole, best, more).remarks == (*whole.remarks, remark)
     assert remarked(whole, more, more) is whole
 
