@@ -8,13 +8,16 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.search import loop
 from gripperd.diagnose.search.loop import discernible, shows_its_loop
-from gripperd.diagnose.search.stepwise import search
+from gripperd.diagnose.search.rivalry import contest
+from gripperd.diagnose.search.stepwise import additions, search
 from gripperd.diagnose.setup import problem_of
+from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.effects.pressure_hysteresis import PressureHysteresis
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
+from tests.diagnose.fitted import ended, fitted
 from tests.diagnose.small import MODEL, Hidden, Moment, recording
 
 RELAY = Hysteron.RELAY
@@ -101,3 +104,19 @@ def test_relays_beside_much_else_are_not_found(
     listed = [Candidate(OF_PRESSURE.name, OF_PRESSURE)]
     told = search(problem, listed, np.random.default_rng(0)).best.names
     assert told == ((OF_PRESSURE.name,) if found else ())
+
+
+@pytest.mark.parametrize(("far", "heard"), [(20.0, True), (5.0, False)])
+def test_relays_are_neither_added_nor_challenge_far_above_the_noise(
+    monkeypatch: pytest.MonkeyPatch, far: float, *, heard: bool
+) -> None:
+    """Beside a bias, and in its place."""
+    monkeypatch.setattr(loop, "FAR", far)
+    hidden = bank_of_pressure(80e3)
+    problem = problem_of(recording(lambda moment: 4 * hidden(moment)), MODEL, {})
+    problem = louder(problem, {Signal.FORCE: 10.0, Signal.PRESSURE: 1.0})
+    bias = Candidate("force_sensor_bias", ForceSensorBias())
+    listed = [bias, Candidate(OF_PRESSURE.name, OF_PRESSURE)]
+    found = ended(problem, fitted(problem, bias))
+    assert bool(additions(found, found.best, listed, 4)) is heard
+    assert (OF_PRESSURE.name in contest(found, listed).best.names) is heard
