@@ -33,9 +33,11 @@ def valve(rig: Rig, hidden: Hidden, course: Course) -> Array:
         level += share * (first - level)
         moves = abs(course.current[i] - course.current[max(i - 1, begun)]) > 1e-6
         still = 0.0 if moves else still + STEP
-        sag *= math.exp(-STEP / 0.3) if moves else 1.0
+        # A regulator that was told to move stays awake for a second, then shuts.
         if still > 1.0:
             sag += STEP * hidden.leak * max(level - sag, 0.0)
+        else:
+            sag *= math.exp(-STEP / 0.3)
         out[i] = max(level - sag, 0.0)
     return out
 

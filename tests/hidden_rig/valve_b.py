@@ -32,11 +32,11 @@ def valve(rig: Rig, hidden: Hidden, course: Course) -> Array:
         level += (aim - level) * -math.expm1(-STEP / lag)
         moves = abs(course.current[i] - course.current[max(i - 1, begun)]) > 1e-6
         still = 0.0 if moves else still + STEP
-        # Orifice: flow as the root of the pressure; refilled once the piston moves.
-        if moves:
-            lost -= lost * STEP / 0.15
-        elif still > 0.6:
+        # Orifice: flow as the root of the pressure; refilled while the piston is awake.
+        if still > 0.6:
             lost += STEP * hidden.leak * math.sqrt(250e3 * max(level - lost, 0.0))
+        else:
+            lost -= lost * STEP / 0.15
         out[i] = max(level - lost, 0.0)
     return out
 
