@@ -69,7 +69,8 @@ def levels(
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
         bent = bending(sweep, "contraction", found["contraction"])
-        found["contraction"] = _steady(sweep, _unswung(sweep, bent))
+        broken = breaking(sweep, "contraction", bent)
+        found["contraction"] = _steady(sweep, _unswung(sweep, broken))
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs

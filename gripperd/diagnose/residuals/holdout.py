@@ -79,7 +79,8 @@ def _spared(problem: Problem) -> set[int]:
     """Sweeps whose inputs lie inside the range of the rest, spread over the order.
 
     The first of a recording stays: only it can show a first inflation. So does the last
-    that shows a signal, and the only fast one: what speed does shows in it alone.
+    that shows a signal, the only fast one: what speed does shows in it alone, and the
+    only one in which jaws travel.
     """
     courses, shown = problem.courses, _shown(problem)
     wanted = max(1, round(SHARE * len(shown)))
@@ -110,13 +111,13 @@ def _spared(problem: Problem) -> set[int]:
     of_moving = round(wanted * len(moving) / max(len(rest), 1))
     spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
     # No other takes its place: what is next to it in kind would go with it.
-    fastest = _fastest(courses)
-    spared -= fastest
-    if not spared:
-        spared.update(_spread([index for index in inner if index not in fastest], 1))
     jaws = [index for index in shown if _opens(courses[index])]
+    alone = _fastest(courses) | _only([i for i in jaws if _travelled(courses[i])])
+    spared -= alone
+    if not spared:
+        spared.update(_spread([index for index in inner if index not in alone], 1))
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
-        spared.add([index for index in jaws if index not in fastest][-1])
+        spared.add([index for index in jaws if index not in alone][-1])
     for index in sorted(spared, reverse=True):
         left = [shown[place] for place in shown.keys() - spared]
         if not shown[index] <= set[Signal]().union(*left):
@@ -151,6 +152,10 @@ def _spread(places: Sequence[int], count: int) -> list[int]:
         return []
     chosen = np.linspace(0, len(places) - 1, count + 2)[1:-1]
     return [places[round(place)] for place in chosen.tolist()]
+
+
+def _only(places: Sequence[int]) -> set[int]:
+    return set(places) if len(places) == 1 else set()
 
 
 def _opens(course: Course) -> bool:

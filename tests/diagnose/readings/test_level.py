@@ -151,6 +151,19 @@ def test_cycles_without_a_command_keep_their_corners_and_rest_in_their_holds() -
     assert abs(np.mean(off[corner])) < 1.2e3
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_what_is_held_between_ways_there_and_back_does_not_go_back_yet(
+    seed: int,
+) -> None:
+    # 1 % of the length a second there, 1.4 s at rest, and back.
+    time = np.arange(0.0, 41.4, 0.1)
+    true = np.interp(time, [0.0, 20.0, 21.4, 41.4], [0.0, 0.2, 0.2, 0.0])
+    way = true + noise(time.size, 5e-4, seed=seed)
+    (course,) = cut(run(time=time, contraction=way))
+    back = float(time[course.direction < 0][0])
+    assert back == pytest.approx(21.4, abs=0.35)
+
+
 def test_what_is_quieter_than_told_does_not_leap() -> None:
     time = np.linspace(0.0, 39.9, 400)
     column = 300e3 + 200e3 * np.sin(time)

@@ -57,7 +57,7 @@ def test_jaws_in_every_sweep_leave_it_a_fifth(blank: Problem, parts: Split) -> N
 def test_of_three_sweeps_of_the_jaws_one_judges_them(
     blank: Problem, parts: Split
 ) -> None:
-    chosen = [one.run for one in blank.courses if one.run not in parts.runs][1:4]
+    chosen = [one.run for one in blank.courses if one.run not in parts.runs][3:]
     courses = tuple(
         replace(one, measured={**one.measured, "opening": 0.05 + 0 * one.time})
         if one.run in chosen
@@ -66,6 +66,24 @@ def test_of_three_sweeps_of_the_jaws_one_judges_them(
     )
     found = split(replace(blank, courses=courses)).runs
     assert set(found) == {*parts.runs, chosen[-1]}
+
+
+def test_the_only_sweep_in_which_jaws_travel_stays(
+    blank: Problem, parts: Split
+) -> None:
+    (travelling,) = (
+        one for one in blank.courses if one.run in parts.runs and one.direction.any()
+    )
+    resting = [one.run for one in blank.courses if not one.direction.any()][:3]
+    courses = tuple(
+        replace(one, measured={**one.measured, "opening": 0.05 + 0 * one.time})
+        if one.run in (travelling.run, *resting)
+        else one
+        for one in blank.courses
+    )
+    found = split(replace(blank, courses=courses)).runs
+    assert travelling.run not in found
+    assert set(found) & set(resting)
 
 
 def test_the_first_sweep_stays_for_only_it_shows_a_first_inflation(
