@@ -15,6 +15,8 @@ class AtRest(StrEnum):
     """As the rig came there: unknown, but the same throughout the sweep."""
     INFLATING = "inflating"
     """It turns with the pressure."""
+    YIELDING = "yielding"
+    """So it does, but what sticks yields a while before it slips."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,6 +1,7 @@
 """What happened in a sweep, as an explanation has it."""
 
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -11,7 +12,8 @@ from gripperd.model.effect import SensorEffect, Signal
 from gripperd.model.memory import stop
 from gripperd.model.track import Array
 
-TURNED, LEAST_TURNED = 0.01, 3e3
+TURNED = MappingProxyType({AtRest.INFLATING: 0.01, AtRest.YIELDING: 0.025})
+LEAST_TURNED = 3e3
 """Half the way back of a pressure that turns friction round where nothing travels:
 share of its range, and at least. [-, Pa]"""
 
@@ -141,10 +143,11 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
     found = course.direction.copy()
     for piece, place in zip(course.slices, places, strict=True):
         sign, known = explanation.rests.get(place, 1.0), found[piece]
-        turns = explanation.at_rest is AtRest.INFLATING and not known.any()
+        share = TURNED.get(explanation.at_rest, 0.0)
         pressure = course.level("pressure")[piece]
-        if turns and np.isfinite(pressure).all():
-            found[piece] = _inflating(pressure, sign) * (1 + explanation.stiction)
+        if share and not known.any() and np.isfinite(pressure).all():
+            turned = _inflating(pressure, sign, share)
+            found[piece] = turned * (1 + explanation.stiction)
         else:
             known[known == 0] = sign * (1 + explanation.stiction)
     return found
@@ -159,7 +162,7 @@ def _came(explanation: Explanation, course: Course, *places: int) -> Array:
     return found
 
 
-def _inflating(pressure: Array, sign: float) -> Array:
+def _inflating(pressure: Array, sign: float, share: float) -> Array:
     """Sign of friction that turns with a pressure, from one as it came. [-1..1]."""
-    radius = max(TURNED * float(np.ptp(pressure)), LEAST_TURNED)
+    radius = max(share * float(np.ptp(pressure)), LEAST_TURNED)
     return stop(pressure, radius, pressure[:1] - sign * radius) / radius

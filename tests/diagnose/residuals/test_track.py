@@ -97,8 +97,16 @@ def test_it_may_turn_with_the_pressure_instead() -> None:
     np.testing.assert_allclose(signs[56:], -1.0)
 
 
-@pytest.mark.parametrize(("share", "half"), [(1.0, 5), (0.2, 3)])
-def test_it_turns_from_where_the_rig_came_over_a_way(share: float, half: int) -> None:
+@pytest.mark.parametrize(
+    ("convention", "share", "half"),
+    [
+        (AtRest.INFLATING, 1.0, 5), (AtRest.INFLATING, 0.2, 3),
+        (AtRest.YIELDING, 0.8, 10),
+    ],
+)  # fmt: skip
+def test_it_turns_from_where_the_rig_came_over_a_way(
+    convention: AtRest, share: float, half: int
+) -> None:
     plain = _courses(recording())["b"]
     # Up by 1 kPa a sample to 500 kPa, or 100, and back by 50.
     top = round(500 * share)
@@ -112,9 +120,9 @@ def test_it_turns_from_where_the_rig_came_over_a_way(share: float, half: int) ->
         smooth={},
         direction=zero,
     )
-    turning = replace(MODEL, at_rest=AtRest.INFLATING, rests={0: -0.4})
+    turning = replace(MODEL, at_rest=convention, rests={0: -0.4})
     signs = directions(turning, course, 0)
-    # Half the way is 1 % of the range, and 3 kPa at least.
+    # Half the way is 1 % of the range, or 2.5, and 3 kPa at least.
     np.testing.assert_allclose(signs[[0, 1]], [-0.4, -0.4 + 1 / half])
     np.testing.assert_allclose(signs[2 * half : top + 1], 1.0)
     np.testing.assert_allclose(signs[top + half], 0.0, atol=1e-9)

@@ -46,6 +46,17 @@ def _turning(moment: Moment) -> Array:
     return np.where(rises, -25.0, 25.0)
 
 
+def _yielding(moment: Moment) -> Array:
+    """The same, but it nears its other sign by e in each 10 kPa: Dahl's model."""
+    if np.ptp(moment.contraction) > 0:
+        return _turning(moment)
+    sign, signs = 1.0, []
+    for change in np.diff(moment.pressure, prepend=moment.pressure[0]).tolist():
+        sign += (np.sign(change) - sign) * -np.expm1(-abs(change) / 10e3)
+        signs.append(sign)
+    return -25.0 * np.array(signs)
+
+
 def _smooth(moment: Moment) -> Array:
     """Takes away the friction that the rig has."""
     return textbook(replace(moment, direction=0 * moment.direction)) - textbook(moment)
@@ -67,6 +78,7 @@ def _carried(moment: Moment) -> Array:
     ("hidden", "sign"),
     [
         pytest.param(_turning, AtRest.INFLATING, id="turns with the pressure"),
+        pytest.param(_yielding, AtRest.YIELDING, id="yields before it turns"),
         pytest.param(_carried, AtRest.CARRIED, id="stays as it came"),
         pytest.param(nothing, AtRest.CARRIED, id="little friction"),
     ],
