@@ -69,8 +69,8 @@ def levels(
     if "contraction" in found:
         found["length"] = _length(sweep, noises)
         bent = bending(sweep, "contraction", found["contraction"])
-        broken = breaking(sweep, "contraction", bent)
-        found["contraction"] = _steady(sweep, _unswung(sweep, broken))
+        held = _not_past(sweep, bent)
+        found["contraction"] = _steady(sweep, _unswung(sweep, held))
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs
@@ -170,6 +170,16 @@ def breaking(sweep: Run, name: str, plain: Smooth) -> Smooth:
     if broken.likelihood <= plain.likelihood:
         return plain
     return broken._replace(spread=max(broken.spread, plain.spread))
+
+
+def _not_past(sweep: Run, bent: Smooth) -> Smooth:
+    """Contraction that goes straight on from corner to corner, if it goes less far so.
+
+    A trend goes past the end of a way that is held, and comes back: friction would
+    seem to have turned round.
+    """
+    broken = breaking(sweep, "contraction", bent)
+    return broken if np.ptp(bent.value) > np.ptp(broken.value) else bent
 
 
 def _unswung(sweep: Run, plain: Smooth) -> Smooth:

@@ -22,6 +22,9 @@ STILL = 2.7
 """A sweep within a range of so many times that has no travel. [-]"""
 JAWS = 1.0
 """The same of jaws, of which turns bear out that they move. [-]"""
+ROUND = 0.5
+"""Power of the way with which the time since a round turn goes: it leaves with the
+square of the time. From a corner it goes straight. [-]"""
 OVERSHOOT = 10
 """Samples of which a trend may swing past a corner. [-]"""
 STUCK = 0.06
@@ -60,10 +63,11 @@ def contracting(known: Smooth, still: float = STILL) -> Array:
     least = reversal(known.spread)
     if not np.isfinite(known.value).all() or np.ptp(known.value) < still * least:
         return np.zeros_like(known.value)
-    return travel(known.value, least, noticed(known.variance**0.5, least))
+    begun = noticed(known.variance**0.5, least)
+    return travel(known.value, least, begun, 1.0 if known.broken else ROUND)
 
 
-def travel(way: Array, least: float, begun: float = 0.0) -> Array:
+def travel(way: Array, least: float, begun: float = 0.0, turn: float = ROUND) -> Array:
     """Sign of travel along a way, turning where it turned; 0 before the first.
 
     A trend goes too far where jaws meet an object, and with the noise of the first few
@@ -78,17 +82,21 @@ def travel(way: Array, least: float, begun: float = 0.0) -> Array:
         How much must be undone before it counts as reversed. [of the way]
     begun
         How much is undone when the way back is seen to have begun. [of the way]
+    turn
+        Power of the way back with which the time since the turn goes. [-]
     """
     if begun > 0:
         lasting = median_filter(way, 2 * OVERSHOOT + 1, mode="reflect")
     else:
         lasting = way
-    return compiled(_travel)(way, lasting, least, begun, OVERSHOOT)
+    early = (begun / least) ** turn
+    return compiled(_travel)(way, lasting, (least, begun), early, OVERSHOOT)
 
 
 def _travel(
-    way: Array, lasting: Array, least: float, begun: float, brief: int
+    way: Array, lasting: Array, ways: tuple[float, float], early: float, brief: int
 ) -> Array:
+    least, begun = ways
     out = np.zeros_like(way)
     sign = 0.0
     leg = 0
@@ -110,10 +118,9 @@ def _travel(
             if too_far and last > plateau + brief:
                 extreme, top, plateau = furthest, last - brief, last
             leg = plateau
-            # A round turn leaves with the square of the time, and as it came; the first
-            # leg came from nowhere, it begins with its plateau.
-            root = np.sqrt(begun / least)
-            before = (i - plateau - 1) * root / (1 - root)
+            # A turn leaves as it came; the first leg came from nowhere, it begins with
+            # its plateau.
+            before = (i - plateau - 1) * early / (1 - early)
             came = 0 if sign != 0.0 else plateau
             while came < top and abs(way[top - came] - extreme) <= begun:
                 came += 1
