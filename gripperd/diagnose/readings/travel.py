@@ -85,11 +85,10 @@ def travel(way: Array, least: float, begun: float = 0.0, turn: float = ROUND) ->
     turn
         Power of the way back with which the time since the turn goes. [-]
     """
+    lasting, early = way, 0.0
     if begun > 0:
         lasting = median_filter(way, 2 * OVERSHOOT + 1, mode="reflect")
-    else:
-        lasting = way
-    early = (begun / least) ** turn
+        early = (begun / least) ** turn
     return compiled(_travel)(way, lasting, (least, begun), early, OVERSHOOT)
 
 

@@ -58,6 +58,10 @@ def test_a_trend_that_goes_too_far_at_an_object_does_not_turn_there(brief: int) 
     assert abs(turned - 260) <= 2
 
 
+def test_what_rests_at_one_value_goes_nowhere() -> None:
+    np.testing.assert_array_equal(travel(np.full(9, 3e5), 0.0), 0.0)
+
+
 def test_from_a_corner_a_way_goes_straight() -> None:
     # 40 samples that rise by 1e-5 in all, then 1e-4 each: 15 of them are 1.5e-3.
     held, there = np.linspace(0.0, 1e-5, 40), np.linspace(0.0, 0.1, 1001)
