@@ -22,9 +22,9 @@ STILL = 2.7
 """A sweep within a range of so many times that has no travel. [-]"""
 JAWS = 1.0
 """The same of jaws, of which turns bear out that they move. [-]"""
-ROUND = 0.5
-"""Power of the way with which the time since a round turn goes: it leaves with the
-square of the time. From a corner it goes straight. [-]"""
+ROUND, STRAIGHT = 0.5, 1.0
+"""Power of the way with which the time since it turned goes: round, it leaves with the
+square of the time, and straight from a corner. [-]"""
 OVERSHOOT = 10
 """Samples of which a trend may swing past a corner. [-]"""
 STUCK = 0.06
@@ -64,7 +64,7 @@ def contracting(known: Smooth, still: float = STILL) -> Array:
     if not np.isfinite(known.value).all() or np.ptp(known.value) < still * least:
         return np.zeros_like(known.value)
     begun = noticed(known.variance**0.5, least)
-    return travel(known.value, least, begun, 1.0 if known.broken else ROUND)
+    return travel(known.value, least, begun, STRAIGHT if known.broken else ROUND)
 
 
 def travel(way: Array, least: float, begun: float = 0.0, turn: float = ROUND) -> Array:

@@ -13,9 +13,10 @@ from gripperd.model.memory import stop
 from gripperd.model.track import Array
 
 TURNED = MappingProxyType({AtRest.INFLATING: 0.01, AtRest.YIELDING: 0.025})
+"""Half the way back of a pressure that turns friction round where nothing travels, as a
+share of its range: the latter is near one that nears its sign by e in each 2 %. [-]"""
 LEAST_TURNED = 3e3
-"""Half the way back of a pressure that turns friction round where nothing travels:
-share of its range, and at least. [-, Pa]"""
+"""The same, at least. [Pa]"""
 
 
 def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
