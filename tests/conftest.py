@@ -1,9 +1,11 @@
 import asyncio
+import sys
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from math import radians
 from random import Random
 
 import pytest
+import structlog
 from hypothesis import settings
 
 from gripperd.bench.modules import Modules
@@ -21,6 +23,10 @@ from gripperd.protocol.live_zero import LoopScale
 
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
+
+# A daemon that some tests share lives in a thread while others run: what it logs must
+# not come between what a doctest or a verdict prints.
+structlog.configure(logger_factory=structlog.PrintLoggerFactory(sys.stderr))
 
 OUTPUT = ModuleLibrary().output("waveshare_ao_8ch")
 INPUT = ModuleLibrary().input("waveshare_ai_8ch")
