@@ -49,7 +49,7 @@ STARTED_AT = 1_700_000_000.0
 Report = Callable[[str], None]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def settings(tmp_path_factory: pytest.TempPathFactory) -> Settings:
     """The shipped bench, on free ports."""
     return replace(
@@ -185,8 +185,9 @@ class Daemon:
             time.sleep(0.01)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def whole_daemon(settings: Settings) -> Iterator[Daemon]:
+    """One for the tests of a file: a fifth of a core is too much to leave running."""
     with (
         running(lambda report: whole(settings, report)) as url,
         httpx.Client(base_url=url, timeout=PATIENCE) as http,
@@ -247,7 +248,7 @@ def rig_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def drawn_settings(
     settings: Settings, rig_folder: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> Settings:
@@ -262,7 +263,7 @@ def drawn_settings(
     )
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def drawn_daemon(drawn_settings: Settings) -> Iterator[Daemon]:
     with (
         running(lambda report: whole(drawn_settings, report)) as url,
