@@ -18,6 +18,13 @@ BORNE_OUT = 10.0
 follows noise as well. [nat]"""
 
 
+def legs_of(signs: Array) -> list[slice]:
+    """Stretches between reversals; where a sign is 0 is no leg."""
+    turns = np.flatnonzero(np.diff(signs)) + 1
+    ends = pairwise([0, *turns.tolist(), signs.size])
+    return [slice(start, end) for start, end in ends if signs[start] != 0]
+
+
 def borne_out(signs: Array, column: Array, variance: float) -> Array:
     """Take back every leg that noise alone would make, the least sure first.
 
@@ -34,7 +41,7 @@ def borne_out(signs: Array, column: Array, variance: float) -> Array:
         Of its noise, as a mean over many samples sees it.
     """
     found = signs.copy()
-    while len(legs := _legs(found)) > 1:
+    while len(legs := legs_of(found)) > 1:
         around = [legs[max(place - 1, 0) : place + 2] for place in range(len(legs))]
         told = [
             _misfit(column[near[0].start : near[-1].stop], -found[leg.start])
@@ -46,12 +53,6 @@ def borne_out(signs: Array, column: Array, variance: float) -> Array:
             break
         found[legs[least]] *= -1
     return found
-
-
-def _legs(signs: Array) -> list[slice]:
-    turns = np.flatnonzero(np.diff(signs)) + 1
-    ends = pairwise([0, *turns.tolist(), signs.size])
-    return [slice(start, end) for start, end in ends if signs[start] != 0]
 
 
 def _misfit(column: Array, sign: float) -> float:

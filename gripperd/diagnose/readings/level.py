@@ -1,7 +1,6 @@
 """Levels: the columns of one sweep without their noise."""
 
 from collections.abc import Mapping
-from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import isotonic_regression
@@ -16,9 +15,16 @@ from gripperd.diagnose.noise.smoothing import (
 )
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
-from gripperd.diagnose.readings.legs import borne_out
+from gripperd.diagnose.readings.legs import borne_out, legs_of
 from gripperd.diagnose.readings.recording import Run
-from gripperd.diagnose.readings.travel import JAWS, contracting, leaning, reversal
+from gripperd.diagnose.readings.travel import (
+    JAWS,
+    SURE,
+    contracting,
+    leaning,
+    reversal,
+    travel,
+)
 from gripperd.model.track import Array
 
 SMOOTHED = (
@@ -80,6 +86,8 @@ def levels(
         found["pressure"] = breaking(
             sweep, "pressure", bending(sweep, "pressure", leapt)
         )
+        if "contraction" in found and not found["contraction"].rate.any():
+            found["pressure"] = _unturned(found["pressure"])
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -106,16 +114,12 @@ def _steady(sweep: Run, known: Smooth) -> Smooth:
     if not np.isfinite(value).all():
         return known
     signs = _travelled(sweep, known)
-    cuts = [0, *(np.flatnonzero(np.diff(signs)) + 1), value.size]
-    out = value.copy()
-    for start, end in pairwise(cuts):
-        piece, sign = slice(start, end), signs[start]
-        if sign == 0:
-            out[piece] = value[piece].mean()
-        else:
-            out[piece] = isotonic_regression(value[piece], increasing=bool(sign > 0)).x
     if not signs.any():
-        return known._replace(value=out, rate=0.0 * value)
+        still = np.full_like(value, value.mean())
+        return known._replace(value=still, rate=0.0 * value)
+    out = _one_way(value, signs)
+    if (before := signs == 0).any():
+        out[before] = value[before].mean()
     return known._replace(value=out)
 
 
@@ -132,6 +136,26 @@ def _travelled(sweep: Run, known: Smooth) -> Array:
     signs = borne_out(contracting(known, JAWS), column, known.variance)
     turns = np.count_nonzero(np.diff(signs[signs != 0]))
     return signs if turns >= AGAIN else np.zeros_like(signs)
+
+
+def _unturned(known: Smooth) -> Smooth:
+    """Pressure where nothing travels, without the wiggles that turn friction round.
+
+    Noise that lasts wanders in the rests of a staircase as far as sticks.
+    """
+    value = known.value
+    if not (known.spread > 0 and np.isfinite(value).all()):
+        return known
+    return known._replace(value=_one_way(value, travel(value, SURE * known.spread)))
+
+
+def _one_way(value: Array, signs: Array) -> Array:
+    """Nearest column that is monotone between reversals; where signs are 0, its own."""
+    out = value.copy()
+    for piece in legs_of(signs):
+        increasing = bool(signs[piece.start] > 0)
+        out[piece] = isotonic_regression(value[piece], increasing=increasing).x
+    return out
 
 
 def leaping(sweep: Run, name: str, plain: Smooth) -> Smooth:
