@@ -141,7 +141,7 @@ def _travelled(sweep: Run, known: Smooth) -> Array:
 def _unturned(known: Smooth) -> Smooth:
     """Pressure where nothing travels, without the wiggles that turn friction round.
 
-    Noise that lasts wanders in the rests of a staircase as far as sticks.
+    Noise that lasts wanders in the rests of a staircase further than friction sticks.
     """
     value = known.value
     if not (known.spread > 0 and np.isfinite(value).all()):
