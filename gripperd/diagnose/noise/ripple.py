@@ -78,6 +78,7 @@ def _fast(left: Array) -> tuple[Array, Array]:
     """Cycles a sample and squares in units of the noise, the fast part."""
     if left.size < 3 * PERIODS:
         return np.empty(0), np.empty(0)
+    # The periodogram of scipy.signal, which takes half a second to load.
     cycles = rfftfreq(left.size)
     density = WHITE / left.size * np.abs(rfft(left - left.mean())) ** 2
     fast = (cycles > max(FASTEST_SWEEP, PERIODS / left.size)) & (cycles < 0.5)
