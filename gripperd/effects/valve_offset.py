@@ -4,19 +4,40 @@ References
 ----------
 .. [1] ISO 10094-1:2010, "Pneumatic fluid power - Electro-pneumatic pressure control
        valves - Part 1": characteristics of the control signal against pressure.
+.. [2] Festo, "Proportional pressure regulator VPPM", 537985, p. 31: zero-point
+       suppression.
 """
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import ClassVar
 
+import numpy as np
+
 from gripperd.model.kinds import InValve
-from gripperd.model.parameter import amplitude
+from gripperd.model.parameter import amplitude, choice
 from gripperd.model.real import Real
+
+ZERO = 0.01
+"""Place on the line below which a regulator that suppresses its zero is asked for
+nothing, 0 to 1; its command repeats to a tenth of that. [-]"""
+
+
+class Zero(StrEnum):
+    """What a regulator does when it is asked for nothing."""
+
+    REGULATED = "regulated"
+    """It keeps the pressure of its line, and so the offset."""
+    SUPPRESSED = "suppressed"
+    """It vents, whatever its line is [2]_."""
 
 
 @dataclass(frozen=True, slots=True)
 class ValveOffset(InValve):
-    r"""The whole line of the regulator is shifted: :math:`p = p_0 + b`."""
+    r"""The line of the regulator is shifted: :math:`p = p_0 + b`.
+
+    All of it, or but what lies above the zero that the regulator suppresses.
+    """
 
     name: ClassVar[str] = "valve_offset"
     needs: ClassVar[frozenset[str]] = frozenset({"current", "pressure"})
@@ -31,7 +52,14 @@ class ValveOffset(InValve):
 
     offset: float = amplitude(unit="kPa", scale=5e3, low=-100e3, high=100e3)
     """Pressure beyond the line. [Pa]"""
+    zero: Zero = choice(Zero)  # noqa: RUF009  (declares)
+    """What it does when it is asked for nothing."""
 
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Shifted pressure. [Pa]."""
-        return pressure + self.offset
+        if self.zero is Zero.REGULATED:
+            return pressure + self.offset
+        low, high = span
+        shifted = np.heaviside(pressure - low - ZERO * (high - low), 0.0)
+        off: Real = pressure + shifted * self.offset
+        return off

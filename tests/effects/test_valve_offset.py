@@ -3,11 +3,21 @@
 import numpy as np
 import pytest
 
-from gripperd.effects.valve_offset import ValveOffset
+from gripperd.diagnose.diagnosis import diagnose
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.effects import EFFECTS
+from gripperd.effects.valve_offset import ValveOffset, Zero
 from gripperd.model import Muscle
+from gripperd.model.track import Array
+from tests.diagnose.sleeping import stuck
+from tests.diagnose.small import MODEL
 from tests.effects.tracks import track_of
 
 SPAN = (0.0, 500e3)
+VALVES = {
+    name: EFFECTS[name]
+    for name in ("valve_offset", "valve_gain", "valve_nonlinearity", "valve_lag")
+}
 
 
 def test_the_whole_line_is_shifted_by_as_much(muscle: Muscle) -> None:
@@ -19,3 +29,38 @@ def test_the_whole_line_is_shifted_by_as_much(muscle: Muscle) -> None:
 
 def test_a_steady_pressure_is_shifted_too() -> None:
     assert ValveOffset(offset=3e3).settled(200e3, SPAN) == 203e3
+
+
+def test_a_regulator_that_suppresses_its_zero_vents_there(muscle: Muscle) -> None:
+    effect = ValveOffset(offset=8e3, zero=Zero.SUPPRESSED)
+    # A read-back repeats to 0.02 mA, 0.6 kPa here.
+    asked = np.array([0.6e3, 0.0, 20e3, 500e3])
+    found = effect.along(asked, track_of(muscle, command=asked), effect.rest())
+    assert found == pytest.approx([0.6e3, 0.0, 28e3, 508e3])
+
+
+def _begins_softly(command: Array, offset: float) -> Array:
+    """An offset that sets in over some percent of the range, as nothing is asked."""
+    return np.asarray(command - offset * np.expm1(-command / 10e3))
+
+
+def _stays(command: Array, offset: float) -> Array:
+    return command + offset
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_an_offset_is_named_where_a_vented_muscle_shows_none(seed: int) -> None:
+    told = diagnose(stuck(_begins_softly, 15e3, seed), MODEL, {}, VALVES)
+    assert told.verdict is Verdict.NAMED
+    assert [one.name for one in told.named] == ["valve_offset"]
+    (effect,) = told.explained.effects[-1:]
+    assert isinstance(effect, ValveOffset)
+    assert effect.zero is Zero.SUPPRESSED
+    assert effect.offset == pytest.approx(15e3, abs=0.5e3)
+
+
+def test_one_that_it_shows_is_regulated() -> None:
+    told = diagnose(stuck(_stays, 15e3), MODEL, {}, VALVES)
+    (effect,) = told.explained.effects[-1:]
+    assert isinstance(effect, ValveOffset)
+    assert effect.zero is Zero.REGULATED

@@ -45,7 +45,9 @@ def valve(rig: Rig, hidden: Hidden, course: Course) -> Array:
 def _curve(rig: Rig, hidden: Hidden, share: float) -> float:
     straight = rig.pressure_span * (1 + hidden.valve_gain) * share
     bow = 6.0 * share * (1 - share) * (0.35 + share) * hidden.valve_nonlinearity
-    return straight + hidden.valve_offset + 0.8 * bow
+    # Asked for nothing, it vents.
+    awake = -math.expm1(-max(share, 0.0) / 0.02)
+    return straight + hidden.valve_offset * awake + 0.8 * bow
 
 
 @compiled
