@@ -29,7 +29,8 @@ class Rival:
     def evidence(self) -> float:
         """Log of its marginal likelihood (Laplace). [nat]."""
         volume = np.linalg.slogdet(self.fit.covariance)[1]
-        return float(-0.5 * self.fit.cost + 0.5 * volume)
+        within = float(-0.5 * self.fit.cost + 0.5 * volume)
+        return within - self.fit.point.surprise
 
     @property
     def excess(self) -> float:

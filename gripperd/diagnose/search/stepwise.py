@@ -42,6 +42,10 @@ LEAST_BESIDE = 20.0
 """The same beside another effect, whose formula is ours. [nat]"""
 LEAST_PLAIN = 8.0
 """The same of an offset or a factor, which little resembles: odds of 3000. [nat]"""
+LEAST_WRONG = 2.5
+"""The same of one constant: against it stands that all parts are as stated, and no form
+that is ours: odds of 12. In 168 recordings of seven rigs, all of sound constants, the
+most was 2.4. [nat]"""
 MISFIT = 2.0
 """Mean square of what the best explanation leaves, from which it is not noise. [-]"""
 HOPELESS = 150.0
@@ -184,14 +188,25 @@ def _best(
     best = null
     for size in range(1, MOST + 1):
         of_size = [rival for rival in rivals if len(rival.candidates) == size]
-        if not of_size:
+        # What is not believed itself holds nothing back that is.
+        believed = [
+            rival
+            for rival in of_size
+            if rival.evidence - best.evidence > _threshold(problem, best, rival, chance)
+        ]
+        if not believed:
             continue
-        champion = preferred(problem, of_size)
-        new = [one for one in champion.candidates if one.name not in best.names]
-        threshold = max(chance, _least(problem, new))
+        champion = preferred(problem, believed)
+        threshold = _threshold(problem, best, champion, chance)
         if worth(problem, null, best, champion, threshold):
             best = champion
     return best
+
+
+def _threshold(problem: Problem, best: Rival, rival: Rival, chance: float) -> float:
+    """Gain over the best that what a rival adds must have to be believed. [nat]."""
+    new = [one for one in rival.candidates if one.name not in best.names]
+    return max(chance, _least(problem, new))
 
 
 def _least(problem: Problem, candidates: Sequence[Candidate]) -> float:
@@ -199,6 +214,8 @@ def _least(problem: Problem, candidates: Sequence[Candidate]) -> float:
     # Noise as loud as the misfit holds the doubt about the model already.
     if problem.is_inflated:
         return 0.0
+    if [one.effect for one in candidates] == [None]:
+        return LEAST_WRONG
     if all(is_plain(one) for one in candidates):
         return LEAST_PLAIN
     return LEAST_SLOW if any(map(_is_slow, candidates)) else LEAST
