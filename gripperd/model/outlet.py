@@ -22,7 +22,8 @@ PLACES = 769
 class Outlet:
     """Steady pressure behind a regulator with effects; it answers like the regulator.
 
-    The curve is taken to rise up to its top.
+    The curve is taken to rise up to its top. A pressure that it leaps over has the
+    current of the leap, so that a ramp of pressures has one of currents.
     """
 
     regulator: Regulator

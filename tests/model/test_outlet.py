@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.valve_gain import ValveGain
 from gripperd.effects.valve_nonlinearity import ValveNonlinearity
-from gripperd.effects.valve_offset import ValveOffset
+from gripperd.effects.valve_offset import ValveOffset, Zero
 from gripperd.errors import DomainError
 from gripperd.model import Chain
 from gripperd.model.outlet import Outlet
@@ -38,6 +38,16 @@ def test_many_pressures_at_once_equal_one_by_one(chain: Chain) -> None:
     alone = [outlet.current(float(pressure)) for pressure in pressures.flat]
     assert currents.ravel() == pytest.approx(alone, rel=1e-12)
     assert currents.shape == pressures.shape
+
+
+def test_a_pressure_that_no_current_gives_has_that_of_the_leap(chain: Chain) -> None:
+    suppressed = ValveOffset(offset=15e3, zero=Zero.SUPPRESSED)
+    outlet = Outlet(chain.regulator, (suppressed,))
+    # It leaps from 5 to 20 kPa at 1 % of 16 mA.
+    for pressure in (6e3, 10e3, 19e3):
+        assert outlet.current(pressure) == pytest.approx(0.00416, abs=1e-9)
+    assert outlet.current(20.5e3) > 0.00416
+    assert outlet.pressure(0.004) == 0.0
 
 
 @pytest.mark.parametrize("share", [1.0, 1.2])
