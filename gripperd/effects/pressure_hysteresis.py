@@ -71,6 +71,9 @@ class PressureHysteresis(InMuscle):
     loads them, -1 the other way. [-]"""
     kept: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
     """Share that a vented muscle keeps of what deflating it has loaded. [-]"""
+    exercised: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """The same before the first inflation of the record: none of a muscle that is new,
+    up to all of one that was inflated before. [-]"""
 
     hysteron: Hysteron = choice(Hysteron)  # noqa: RUF009  (declares)
     """What remembers."""
@@ -110,7 +113,7 @@ class PressureHysteresis(InMuscle):
         """Take what the springs carry. [N]."""
         # A transmitter may read less than nothing; to be vented is no way up.
         load = self.begun if np.all(track.pressure[:1] > 0) else 0.0
-        kept = self.kept if np.all(track.cycle[:1] >= 1) else 0.0
+        kept = self.kept if np.all(track.cycle[:1] >= 1) else self.exercised
         begin_at(track.pressure, self._reach, load, memory, kept)
         lever = self._lever(track.contraction, track.muscle)
         if self.hysteron is Hysteron.RELAY:

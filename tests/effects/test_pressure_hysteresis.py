@@ -5,10 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.diagnosis import diagnose
+from gripperd.effects import EFFECTS
 from gripperd.effects.pressure_hysteresis import PressureHysteresis
 from gripperd.model import Direction, Muscle, StaticMuscle
 from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
+from tests.diagnose.small import MODEL, Moment, recording
 from tests.effects.tracks import track_of
 
 HYSTERESIS = PressureHysteresis(near=4.0, middle=8.0, far=6.0, pressure=30e3)
@@ -55,11 +58,20 @@ def test_a_record_may_begin_as_a_way_from_no_pressure_left_it(muscle: Muscle) ->
     assert force(muscle, begun, pressure=vented).tolist() == [0.0, 0.0]
 
 
-@pytest.mark.parametrize(("inflations", "keeps"), [(0, False), (1, True), (3, True)])
+@pytest.mark.parametrize(
+    ("inflations", "kept", "exercised", "keeps"),
+    [
+        (0, 1.0, 0.0, False),
+        (1, 1.0, 0.0, True),
+        (3, 1.0, 0.0, True),
+        (0, 0.0, 1.0, True),
+        (1, 0.0, 1.0, False),
+    ],
+)
 def test_a_muscle_inflated_before_keeps_what_deflating_it_has_loaded(
-    muscle: Muscle, inflations: int, *, keeps: bool
+    muscle: Muscle, inflations: int, kept: float, exercised: float, *, keeps: bool
 ) -> None:
-    kept = replace(HYSTERESIS, begun=1.0, kept=1.0)
+    keeping = replace(HYSTERESIS, begun=1.0, kept=kept, exercised=exercised)
     again = np.concatenate([TRIANGLE, TRIANGLE[1:]])
     both = force(muscle, HYSTERESIS, pressure=again)
     second = both[TRIANGLE.size - 1 :]
@@ -68,8 +80,18 @@ def test_a_muscle_inflated_before_keeps_what_deflating_it_has_loaded(
         track = track_of(
             muscle, pressure=TRIANGLE[start:], contraction=0.0, cycle=float(inflations)
         )
-        found = kept.along(np.zeros(track.pressure.size), track, kept.rest())
+        found = keeping.along(np.zeros(track.pressure.size), track, keeping.rest())
         assert (found == pytest.approx(second[start:])) is keeps
+
+
+def test_a_vented_muscle_that_was_inflated_before_the_record_pulls(
+    muscle: Muscle,
+) -> None:
+    vented = np.full(3, -100.0)
+    used = replace(HYSTERESIS, exercised=1.0)
+    assert force(muscle, used, pressure=vented) == pytest.approx([18.0] * 3)
+    half = replace(HYSTERESIS, exercised=0.5)
+    assert force(muscle, half, pressure=vented) == pytest.approx([9.0] * 3)
 
 
 def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
@@ -146,3 +168,27 @@ def test_after_a_long_way_relays_are_those_of_a_prediction(
     assert expected - bare.force(300e3, 0.1, Direction.CONTRACTING) == pytest.approx(
         reached, rel=1e-3
     )
+
+
+def _loses_work(moment: Moment) -> Array:
+    """Dahl's 40 N over 25 kPa, in a muscle that was inflated and vented before."""
+    way = np.diff(moment.pressure, prepend=0.0)
+    sign, pull = -1.0, np.empty_like(way)
+    for index, gone in enumerate(way):
+        toward = np.sign(gone) if gone else sign
+        sign = toward + (sign - toward) * np.exp(-abs(gone) / 25e3)
+        pull[index] = -40.0 * sign
+    return pull
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_what_a_vented_muscle_keeps_from_before_the_record_is_no_other_effect(
+    seed: int,
+) -> None:
+    names = ("pressure_hysteresis", "first_cycle", "force_sensor_bias", "length_datum")
+    library = {name: EFFECTS[name] for name in names}
+    told = diagnose(recording(_loses_work, seed=seed), MODEL, {}, library)
+    assert [one.name for one in told.named] == ["pressure_hysteresis"]
+    (effect,) = told.explained.effects[-1:]
+    assert isinstance(effect, PressureHysteresis)
+    assert effect.exercised > 0.7
