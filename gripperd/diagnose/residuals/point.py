@@ -38,10 +38,10 @@ class Point:
     def surprise(self) -> float:
         """How much less likely wrong constants are this far off than looked for. [nat].
 
-        A tolerance is known no better than within a factor of two, and a normal
-        distribution whose sigma is that uncertain is Student's with two degrees of
-        freedom: 14 tolerances are 36 times less likely than 4. Within its tolerance a
-        constant is not wrong, and none more likely than it was looked for.
+        A part that is wrong is off by a few of its tolerances rather than by many: as a
+        normal distribution whose sigma is known to a factor of two or so, which is
+        Student's with two degrees of freedom. 14 tolerances are 36 times less likely
+        than 4. Up to 2.8, a constant is as likely as it was looked for, and no more.
         """
         shifts = self.shifts[list(self.freed)]
         student = -1.5 * np.log1p(shifts**2 / 2) - 1.5 * np.log(2)

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate, is_plain
+from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.inflation import birge_ratios, louder, plain, reached
 from gripperd.diagnose.fit.null import null_gains
@@ -23,6 +23,7 @@ from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.belief import LEAST_BESIDE, MOST, least, simplest
 from gripperd.diagnose.search.finalists import finalists, heard, leaders
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.loop import discernible, shows_its_loop
@@ -31,21 +32,6 @@ from gripperd.diagnose.search.price import worth
 
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
-LEAST = 13.0
-"""Gain below which no model of a rig is known well enough: odds of 4e5. In 96
-recordings of six rigs that lacked nothing the most was 10, but for delays that are too
-short to be seen. [nat]"""
-LEAST_SLOW = 20.0
-"""The same of what time, order or warmth tells, as it does a drift: odds of 5e8. One in
-eight drifts of 0.2 % of full scale gave 17. [nat]"""
-LEAST_BESIDE = 20.0
-"""The same beside another effect, whose formula is ours. [nat]"""
-LEAST_PLAIN = 8.0
-"""The same of an offset or a factor, which little resembles: odds of 3000. [nat]"""
-LEAST_WRONG = 2.5
-"""The same of one constant: against it stands that all parts are as stated, and no form
-that is ours: odds of 12. In 168 recordings of seven rigs, all of sound constants, the
-most was 2.4. [nat]"""
 MISFIT = 2.0
 """Mean square of what the best explanation leaves, from which it is not noise. [-]"""
 HOPELESS = 150.0
@@ -54,8 +40,6 @@ DEFLATIONS = 3
 """Passes after the first, each with noise no louder than the one before left it."""
 NEXT = 2
 """Explanations that are fitted in full."""
-MOST = 4
-"""Effects that one recording may add."""
 
 Starts: TypeAlias = Mapping[tuple[Candidate, ...], Point]
 """Where a fit of some candidates ended when the noise was taken to be louder."""
@@ -133,7 +117,7 @@ def _pass(
     rivals = [null]
     # What is inflated is weighed even so: only a fit tells how loud the rest really is.
     if problem.is_inflated or any(
-        gain > max(chance, _least(problem, [member.candidate]))
+        gain > max(chance, least(problem, [member.candidate]))
         for member, gain in singles.items()
     ):
         # A table has so few samples that every form can be fitted in full.
@@ -143,7 +127,7 @@ def _pass(
         rivals = [one for one in rivals if shows_its_loop(problem, one)]
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
-    best = _best(problem, null, rivals, chance)
+    best = simplest(problem, null, rivals, chance)
     threshold = max(chance, 0.0 if problem.is_inflated else LEAST_BESIDE)
     rivals.sort(key=lambda rival: -rival.evidence)
     return Found(
@@ -179,51 +163,6 @@ def _with_bore(
     if not (problem.is_inflated and held):
         return []
     return larger(problem, rival, [one for one in listed if one.name == BORE])
-
-
-def _best(
-    problem: Problem, null: Rival, rivals: Sequence[Rival], chance: float
-) -> Rival:
-    """The simplest explanation that no larger one beats by its price."""
-    best = null
-    for size in range(1, MOST + 1):
-        of_size = [rival for rival in rivals if len(rival.candidates) == size]
-        # What is not believed itself holds nothing back that is.
-        believed = [
-            rival
-            for rival in of_size
-            if rival.evidence - best.evidence > _threshold(problem, best, rival, chance)
-        ]
-        if not believed:
-            continue
-        champion = preferred(problem, believed)
-        threshold = _threshold(problem, best, champion, chance)
-        if worth(problem, null, best, champion, threshold):
-            best = champion
-    return best
-
-
-def _threshold(problem: Problem, best: Rival, rival: Rival, chance: float) -> float:
-    """Gain over the best that what a rival adds must have to be believed. [nat]."""
-    new = [one for one in rival.candidates if one.name not in best.names]
-    return max(chance, _least(problem, new))
-
-
-def _least(problem: Problem, candidates: Sequence[Candidate]) -> float:
-    """Gain below which they are not believed, be it more than chance. [nat]."""
-    # Noise as loud as the misfit holds the doubt about the model already.
-    if problem.is_inflated:
-        return 0.0
-    if [one.effect for one in candidates] == [None]:
-        return LEAST_WRONG
-    if all(is_plain(one) for one in candidates):
-        return LEAST_PLAIN
-    return LEAST_SLOW if any(map(_is_slow, candidates)) else LEAST
-
-
-def _is_slow(candidate: Candidate) -> bool:
-    effect = candidate.effect
-    return effect is not None and (effect.timed or "temperature" in effect.needs)
 
 
 def _grown(found: Found, listed: Sequence[Candidate]) -> Found:

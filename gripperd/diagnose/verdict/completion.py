@@ -21,10 +21,11 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.belief import MOST
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import is_seen
 from gripperd.diagnose.search.rivalry import Contest, contest
-from gripperd.diagnose.search.stepwise import MOST, additions
+from gripperd.diagnose.search.stepwise import additions
 from gripperd.diagnose.verdict.gap import Gap, gaps
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.diagnose.verdict.key import plain
