@@ -17,6 +17,7 @@ import numpy as np
 from gripperd.model.kinds import InValve
 from gripperd.model.parameter import amplitude, choice
 from gripperd.model.real import Real
+from gripperd.model.track import Array, Track
 
 ZERO = 0.01
 """Place on the line below which a regulator that suppresses its zero is asked for
@@ -36,7 +37,8 @@ class Zero(StrEnum):
 class ValveOffset(InValve):
     r"""The line of the regulator is shifted: :math:`p = p_0 + b`.
 
-    All of it, or but what lies above the zero that the regulator suppresses.
+    All of it, or only what lies above the zero that the regulator suppresses; there
+    and below, it vents and sucks nothing.
     """
 
     name: ClassVar[str] = "valve_offset"
@@ -57,9 +59,20 @@ class ValveOffset(InValve):
 
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Shifted pressure. [Pa]."""
+        return self._shifted(pressure, pressure, span)
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Shifted pressure of each moment, where something is asked for. [Pa]."""
+        return np.asarray(self._shifted(value, track.command, track.span))
+
+    def _shifted(self, pressure: Real, asked: Real, span: tuple[float, float]) -> Real:
         if self.zero is Zero.REGULATED:
             return pressure + self.offset
         low, high = span
-        shifted = np.heaviside(pressure - low - ZERO * (high - low), 0.0)
-        off: Real = pressure + shifted * self.offset
-        return off
+        shifted: Real
+        if self.offset < 0:
+            shifted = np.maximum(pressure + self.offset, np.minimum(pressure, low))
+        else:
+            awake = np.heaviside(asked - low - ZERO * (high - low), 0.0)
+            shifted = pressure + awake * self.offset
+        return shifted

@@ -7,7 +7,8 @@ from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.effects.valve_offset import ValveOffset, Zero
-from gripperd.model import Muscle
+from gripperd.model import Chain, Muscle
+from gripperd.model.outlet import Outlet
 from gripperd.model.track import Array
 from tests.diagnose.sleeping import stuck
 from tests.diagnose.small import MODEL
@@ -37,6 +38,28 @@ def test_a_regulator_that_suppresses_its_zero_vents_there(muscle: Muscle) -> Non
     asked = np.array([0.6e3, 0.0, 20e3, 500e3])
     found = effect.along(asked, track_of(muscle, command=asked), effect.rest())
     assert found == pytest.approx([0.6e3, 0.0, 28e3, 508e3])
+
+
+def test_it_vents_and_sucks_nothing(chain: Chain) -> None:
+    low = ValveOffset(offset=-15e3, zero=Zero.SUPPRESSED)
+    asked = np.array([-5e3, 0.0, 4e3, 10e3, 15e3, 20e3, 500e3])
+    assert low.settled(asked, SPAN) == pytest.approx(
+        [-5e3, 0.0, 0.0, 0.0, 0.0, 5e3, 485e3]
+    )
+    outlet = Outlet(chain.regulator, (low,))
+    assert outlet.current(100e3) == pytest.approx(0.004 + 0.016 * 115 / 500)
+    for vented in (outlet.current(0.0), *np.ravel(outlet.current(np.zeros(2)))):
+        assert outlet.pressure(vented) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_it_vents_at_once_when_nothing_is_asked_though_the_pressure_lags(
+    muscle: Muscle,
+) -> None:
+    effect = ValveOffset(offset=8e3, zero=Zero.SUPPRESSED)
+    lagging = np.array([60e3, 40e3, 25e3])
+    track = track_of(muscle, command=np.array([60e3, 0.0, 0.0]))
+    found = effect.along(lagging, track, effect.rest())
+    assert found == pytest.approx([68e3, 40e3, 25e3])
 
 
 def _begins_softly(command: Array, offset: float) -> Array:

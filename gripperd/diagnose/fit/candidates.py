@@ -147,7 +147,8 @@ def is_plain(candidate: Candidate) -> bool:
     effect = candidate.effect
     if effect is None or not is_exact(candidate):
         return False
-    return not any(one.starts or one.choices for one in parameters(effect).values())
+    known = parameters(effect).values()
+    return effect.name in LINEAR or not any(one.starts or one.choices for one in known)
 
 
 def forms(kind: type[Effect]) -> list[Effect]:

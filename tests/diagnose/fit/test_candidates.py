@@ -216,6 +216,7 @@ def test_what_acts_on_a_signal_that_nothing_shows_says_so(blank: Problem) -> Non
         ("pressure_sensor_bias", True),
         ("length_datum", True),
         ("valve_gain", True),
+        ("valve_offset", True),
         ("force_sensor_drift", False),
         ("channel_delay", False),
         ("valve_lag", False),
