@@ -37,7 +37,8 @@ def with_usual_tolerances(found: Found, best: Contest) -> Contest:
     start = replace(found.null.fit.point, looser=usual)
     rival = _beyond(problem, polished(problem, start))
     count = len(rival.candidates)
-    lead = rival.evidence - here.evidence
+    # Here nobody pays for how far parts are off: the question is whether one is alone.
+    lead = rival.evidence - here.evidence - here.fit.point.surprise
     if count < SEVERAL or lead < -SURE:
         return best
     alike = (here,) if lead <= SURE and here.names[0] not in rival.names else ()

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
@@ -111,6 +112,22 @@ def test_an_effect_that_explains_as_much_stays_a_rival(both: Diagnosis) -> None:
 def test_an_effect_that_explains_less_is_none(both: Diagnosis) -> None:
     told = with_usual_tolerances(both.found, _behind(both, 2 * SURE))
     assert not any(told.equivalents)
+
+
+def test_one_part_that_is_far_off_pays_for_that_no_more_than_several(
+    both: Diagnosis,
+) -> None:
+    """It would explain more than they do, were it not off by 8 tolerances."""
+    fit, constants = both.contest.best.fit, both.found.problem.constants
+    index = [one.path for one in constants].index("muscle.diameter")
+    shifts = np.zeros_like(fit.point.shifts)
+    shifts[index] = 8.0
+    point = replace(fit.point, shifts=shifts, looser=(), freed=frozenset({index}))
+    alone = replace(fit, point=point, cost=fit.cost - 3 * SURE)
+    rival = Rival((Candidate(BORE, None, index),), alone)
+    assert point.surprise > 0.5 * SURE
+    best = Contest(rival, (Place(both.found.null),))
+    assert with_usual_tolerances(both.found, best) is best
 
 
 def test_an_effect_that_explains_more_is_kept(both: Diagnosis) -> None:
