@@ -34,6 +34,14 @@ def progress() -> Iterator[Callable[[str, float], None]]:
         yield tell
 
 
+class _Interrupted(BaseException):
+    """Somebody pressed Ctrl-C.
+
+    Of a KeyboardInterrupt in a string that it runs Python keeps account, and dies of
+    the signal rather than leave with a status.
+    """
+
+
 @contextmanager
 def interruptible(left: Callable[[], str]) -> Iterator[None]:
     """Let Ctrl-C end what is inside with a word about it.
@@ -43,18 +51,24 @@ def interruptible(left: Callable[[], str]) -> Iterator[None]:
     left
         Says what is left behind, such as ``wrote nothing``.
     """
-    here = os.getpid()
+    here, pressed = os.getpid(), False
 
     def interrupt(_number: int, _frame: FrameType | None) -> None:
+        nonlocal pressed
         if os.getpid() != here:
             # A copy that shares the work has nothing to say.
             os._exit(INTERRUPTED)
-        raise KeyboardInterrupt
+        pressed = True
+        raise _Interrupted
 
     before = signal.signal(signal.SIGINT, interrupt)
     try:
         yield
-    except KeyboardInterrupt:
+    except BaseException:
+        # What is written in C and calls Python may make another error of it: numba,
+        # while it loads machine code, a SystemError.
+        if not pressed:
+            raise
         typer.echo(f"interrupted; {left()}", err=True)
         raise typer.Exit(INTERRUPTED) from None
     finally:

@@ -3,10 +3,13 @@
 import os
 import signal
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+import typer
 
+from gripperd.cli.waiting import interruptible
 from gripperd.demo.files import write_rig
 from gripperd.demo.rig import Hidden
 from tests.daemon import PATIENCE, START, until
@@ -61,6 +64,49 @@ def test_a_diagnosis_says_that_it_wrote_nothing(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (status, said) == (130, "interrupted; wrote nothing\n")
     assert not (tmp_path / "found.html").exists()
+
+
+def struck_in_c() -> None:
+    """Be interrupted where C calls Python, and makes of it what CPython does."""
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except BaseException as struck:
+        # Objects/call.c, _Py_CheckFunctionResult.
+        said = "returned a result with an exception set"
+        raise SystemError(said) from struck
+
+
+def test_an_interrupt_that_comes_out_of_c_as_another_error_is_one(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(typer.Exit) as left, interruptible(lambda: "wrote nothing"):
+        struck_in_c()
+    assert left.value.exit_code == 130
+    assert capsys.readouterr().err == "interrupted; wrote nothing\n"
+
+
+def test_an_error_that_nobody_asked_for_goes_on() -> None:
+    with pytest.raises(SystemError), interruptible(lambda: "wrote nothing"):
+        raise SystemError
+
+
+# A dataclass is made by a string that is run: Ctrl-C may strike it at any import.
+STRING = """
+import signal, sys, typer
+from gripperd.cli.waiting import interruptible
+try:
+    with interruptible(lambda: "wrote nothing"):
+        exec("signal.raise_signal(signal.SIGINT)")
+except typer.Exit as left:
+    sys.exit(left.exit_code)
+"""
+
+
+def test_a_string_that_is_interrupted_leaves_the_status(tmp_path: Path) -> None:
+    (tmp_path / "made.py").write_text(STRING)
+    # As a module, as the command is: of a script Python keeps no such account.
+    ended = subprocess.run([sys.executable, "-m", "made"], cwd=tmp_path, check=False)
+    assert ended.returncode == 130
 
 
 def test_no_report_is_left_beside_the_recording_of_another_rig(tmp_path: Path) -> None:
