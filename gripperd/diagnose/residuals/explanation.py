@@ -17,6 +17,9 @@ class AtRest(StrEnum):
     """It turns with the pressure."""
     YIELDING = "yielding"
     """So it does, but what sticks yields a while before it slips."""
+    BLADDER = "bladder"
+    """That of the bladder in its braid turns with the pressure, for it slides there;
+    what rubs elsewhere stays as the rig came."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,7 +5,7 @@ begins anew in each.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +19,8 @@ class Runs(Track):
 
     slices: tuple[slice, ...]
     """Samples of each run."""
+    within: Array
+    """Direction in which the bladder slides in its braid. [-1..1]"""
     beside: Array
     """What a smooth force leaves out when a late cell speaks of it, less what it leaves
     out of the reading. [N]"""
@@ -39,6 +41,11 @@ class Runs(Track):
             )
             for piece in self.slices
         )
+
+    @cached_property
+    def inside(self) -> "Runs":
+        """The same as friction between bladder and braid has it."""
+        return replace(self, direction=self.within)
 
     @cached_property
     def _ends(self) -> tuple[Array, Array]:

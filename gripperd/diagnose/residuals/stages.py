@@ -33,6 +33,8 @@ a machine moves them 0.99; on objects, whose jaws but seem to move, up to 0.8. [
 HELD = 0.05
 """Share of its height by which a pressure changes under a machine, at most: a regulator
 holds it. [-]"""
+INSIDE = "braid_friction"
+"""What rubs between the bladder and its braid."""
 TURNED = 4e-4
 """Half the way back, of a muscle inside a mount, over which its friction turns. [-]"""
 
@@ -123,7 +125,11 @@ def _strained(explanation: Explanation, track: Runs) -> Runs:
     rate = track.rate + track.slope(stretch)
     turned = track.each(_turned, contraction) - track.each(_turned, track.contraction)
     direction = np.clip(track.direction + turned, -1.0, 1.0)
-    return replace(track, contraction=contraction, rate=rate, direction=direction)
+    # What turns by itself with the pressure has turned already.
+    within = track.within if track.within is not track.direction else direction
+    return replace(
+        track, contraction=contraction, rate=rate, direction=direction, within=within
+    )
 
 
 def _turned(contraction: Array, run: Track) -> Array:
@@ -134,6 +140,8 @@ def _turned(contraction: Array, run: Track) -> Array:
 
 def _along(effect: Effect, value: Array, track: Runs) -> Array:
     """Signal with an effect; one that remembers begins anew in each run."""
+    if effect.name == INSIDE and track.within is not track.direction:
+        track = track.inside
     if not effect.rest().size:
         return effect.along(value, track, effect.rest())
     return track.each(lambda one, run: effect.along(one, run, effect.rest()), value)
@@ -209,7 +217,7 @@ def passed_on(
     for effect in explanation.effects:
         if effect.signal is signal and not effect.rest().size:
             rough = [
-                effect.along(value, one, effect.rest())
+                _along(effect, value, one)
                 for value, one in zip(rough, (sharp, track), strict=True)
             ]
     return np.nan_to_num(rough[0] - rough[1])

@@ -42,7 +42,9 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     few = [one for one in listed if one.name in TELLING]
     best, most = problem, -np.inf
     known = problem.model.at_rest
-    for sign in sorted(AtRest, key=lambda one: one is not known):
+    # What rubs beside the braid has no sign before it is found.
+    others = [one for one in AtRest if one not in (known, AtRest.BLADDER)]
+    for sign in (known, *others):
         tried = replace(problem, model=replace(problem.model, at_rest=sign))
         start = polished(tried, Point(np.zeros(len(problem.constants)))).point
         around = design(tried, start, few)

@@ -7,7 +7,7 @@ from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
-from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.stages import passed_on, predictable, predicted
 from gripperd.diagnose.residuals.track import track_of
 from gripperd.diagnose.residuals.usable import usable
@@ -221,6 +221,44 @@ def test_friction_inside_a_mount_turns_with_the_way_that_it_stretches(
         sign = max(1 - share * way / 4e-4, -1.0)
         full = np.asarray(BraidFriction().magnitude(state, MUSCLE))[place]
         assert friction[place] == pytest.approx(-sign * full, rel=0.15)
+
+
+def test_the_bladder_may_slide_in_its_braid_where_a_rod_stays(
+    silent: dict[str, Course],
+) -> None:
+    course = silent["b"]
+    rubbed = MODEL.with_effect(CoulombFriction(20.0))
+    found = {
+        sign: _one(replace(rubbed, at_rest=sign, rests={0: 1.0}), course, Signal.FORCE)
+        for sign in AtRest
+    }
+    state = track_of(MODEL, course, 0).state
+    braid = np.asarray(BraidFriction().magnitude(state, MUSCLE))
+    # On the way back, past the turn, the braid's friction helps, the rod's does not.
+    back = slice(60, 95)
+    carried = found[AtRest.CARRIED][back]
+    np.testing.assert_allclose(found[AtRest.BLADDER][back], carried + 2 * braid[back])
+    np.testing.assert_allclose(
+        found[AtRest.INFLATING][back], carried + 2 * braid[back] + 2 * 20.0
+    )
+    # Nor does a mount that hardly stretches.
+    stiff = replace(rubbed, at_rest=AtRest.BLADDER, rests={0: 1.0})
+    stiff = stiff.with_effect(SeriesCompliance(shortening=1e-12))
+    mounted = _one(stiff, course, Signal.FORCE)
+    np.testing.assert_allclose(mounted[back], found[AtRest.BLADDER][back], rtol=1e-5)
+
+
+@pytest.mark.parametrize("sign", [AtRest.CARRIED, AtRest.BLADDER])
+def test_a_rod_inside_a_mount_turns_with_the_way_that_it_stretches(
+    silent: dict[str, Course], sign: AtRest
+) -> None:
+    course = silent["b"]
+    pull = np.maximum(course.level("force"), 0.0)
+    soft = MODEL.with_effect(SeriesCompliance(shortening=2e-3 / float(np.ptp(pull))))
+    soft = replace(soft, at_rest=sign)
+    rubbed = soft.with_effect(CoulombFriction(20.0))
+    friction = _one(rubbed, course, Signal.FORCE) - _one(soft, course, Signal.FORCE)
+    np.testing.assert_allclose(friction[75:95], 20.0)
 
 
 def test_friction_inside_a_mount_is_never_more_than_it_is(

@@ -24,6 +24,7 @@ from tests.diagnose.small import (
     altered,
     nothing,
     recording,
+    rubbing,
     textbook,
     without,
 )
@@ -113,6 +114,23 @@ def test_friction_that_is_found_leaves_its_sign_as_it_is() -> None:
     _, problem = _decided(recording(_turning))
     rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
     assert with_sign_beside(problem, fitted(problem, rub)) is problem
+
+
+def _sliding(moment: Moment) -> Array:
+    """The bladder slides in its braid as it inflates, and a rod rubs as it came."""
+    rises = np.where(np.gradient(moment.pressure) >= 0, 1.0, -1.0)
+    sign = moment.direction if np.ptp(moment.contraction) > 0 else rises
+    braid = textbook(replace(moment, direction=sign)) - textbook(moment)
+    return braid + rubbing(25.0)(moment)
+
+
+def test_a_rod_that_rubs_does_not_keep_the_bladder_from_sliding_in_its_braid() -> None:
+    _, problem = _decided(recording(_sliding))
+    assert problem.model.at_rest is not AtRest.BLADDER
+    assert with_sign_beside(problem, fitted(problem)) is problem
+    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+    beside = with_sign_beside(problem, fitted(problem, rub))
+    assert beside.model.at_rest is AtRest.BLADDER
 
 
 def _shifted(time: Array, force: Array) -> Array:
