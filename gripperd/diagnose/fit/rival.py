@@ -7,10 +7,11 @@ from typing import TypeAlias
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
-from gripperd.diagnose.fit.polish import Polished, polished
+from gripperd.diagnose.fit.polish import LEAST_ON, Polished, polished
 from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.parameter import in_use
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,30 @@ Start: TypeAlias = tuple[tuple[Candidate, ...], Point]
 def fitted(problem: Problem, starts: Sequence[Start]) -> list[Rival]:
     """Fit some explanations, side by side."""
     points = [point for _, point in starts]
-    fits = side_by_side(lambda one: polished(problem, one), points, problem.processes)
+    fits = side_by_side(lambda one: _fitted(problem, one), points, problem.processes)
     return [Rival(one, fit) for (one, _), fit in zip(starts, fits, strict=True)]
+
+
+def _fitted(problem: Problem, point: Point) -> Polished:
+    """Fit it, and the law that it has come next to, to which no small step leads."""
+    fit = polished(problem, point)
+    plain = _switched_off(fit.point)
+    if plain is fit.point:
+        return fit
+    return min(fit, polished(problem, plain), key=lambda one: one.cost)
+
+
+def _switched_off(point: Point) -> Point:
+    """Give a point with 0 for every shape that ended where 0 would be another law."""
+    for effect in point.effects:
+        off = {
+            name: 0.0
+            for name, known in in_use(effect, effect.idle).items()
+            if known.switches and 0 < getattr(effect, name) <= LEAST_ON * known.high
+        }
+        if off:
+            point = point.with_effect(replace(effect, **off))
+    return point
 
 
 def larger(

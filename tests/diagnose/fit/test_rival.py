@@ -5,7 +5,7 @@ import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, added
+from gripperd.diagnose.fit.rival import Rival, added, fitted
 from gripperd.diagnose.residuals.constants import Constant
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -14,11 +14,14 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from tests.diagnose.searched import searched
 from tests.diagnose.small import (
     MODEL,
+    Moment,
     covariance,
     recording,
+    rubbing,
     threshold,
     undoubted,
 )
@@ -59,6 +62,25 @@ def test_the_excess_of_a_right_explanation_is_little(late: Found) -> None:
     # Chi² of n samples scatters by the root of 2 n.
     assert abs(late.best.excess) < 6 * (2 * late.best.fit.samples) ** 0.5
     assert late.null.excess > late.best.excess + 100
+
+
+@pytest.mark.parametrize("rubs_at_rest", [True, False])
+def test_a_friction_that_need_not_slip_is_there_at_rest_as_well(
+    *, rubs_at_rest: bool
+) -> None:
+    def hidden(moment: Moment) -> Array:
+        moves = np.ptp(moment.contraction) > 0
+        return rubbing(25.0)(moment) * (moves or rubs_at_rest)
+
+    problem = problem_of(recording(hidden), MODEL, {})
+    # The least there is: travel calls up all of it, and rest nothing.
+    slips = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0, slip=1e-4))
+    start = Point(np.zeros(len(problem.constants)))
+    (rival,) = fitted(problem, [((slips,), added(start, slips))])
+    (effect,) = rival.fit.point.effects
+    assert isinstance(effect, CoulombFriction)
+    assert (effect.slip == 0) == rubs_at_rest
+    assert effect.magnitude == pytest.approx(25.0, abs=1.5)
 
 
 def test_a_candidate_is_put_in_as_what_it_is(blank: Problem) -> None:
