@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gripperd.diagnose.fit.candidates import Candidate, amplitudes, side
 from gripperd.diagnose.fit.gram import Fit, Gram
+from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.constants import NUISANCE
 from gripperd.diagnose.residuals.point import FREED, Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -98,25 +99,35 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
         _acting(problem, point, effect, base, build) for effect in point.effects
     )
     members: list[Member] = []
-    names: set[str] = set()
-    for candidate in listed:
-        if candidate.name in {effect.name for effect in point.effects}:
-            continue
-        if candidate.effect is None:
-            if candidate.constant in point.freed:
-                continue
-            assert candidate.constant is not None
+    idle = [one for one in listed if not _acts(one, point)]
+    effects = [one.effect for one in idle if one.effect is not None]
+    answers = iter(
+        side_by_side(
+            lambda effect: responses(problem, point, effect, base),
+            effects,
+            problem.processes,
+        )
+    )
+    for candidate in idle:
+        if candidate.constant is not None:
             response = slopes[candidate.constant]
             columns = [build.add(response, FREED, 0.0, (-NUISANCE, NUISANCE))]
         else:
-            columns = _response(problem, point, candidate.effect, base, build)
+            assert candidate.effect is not None
+            columns = _response(problem, candidate.effect, next(answers), build)
         if columns:
             members.append(Member(candidate, np.array(columns, np.intp)))
-            names.add(candidate.name)
-    faint = {one.name for one in listed} - names
+    faint = {one.name for one in listed} - {one.candidate.name for one in members}
     return Design(
         point, build.gram(), nuisance, acting, tuple(members), tuple(sorted(faint))
     )
+
+
+def _acts(candidate: Candidate, point: Point) -> bool:
+    """Whether a point has it already."""
+    if candidate.effect is None:
+        return candidate.constant in point.freed
+    return candidate.name in {effect.name for effect in point.effects}
 
 
 def _acting(
@@ -138,14 +149,12 @@ def _acting(
 
 
 def _response(
-    problem: Problem, point: Point, effect: Effect, base: Base, build: "_Builder"
+    problem: Problem, effect: Effect, answers: Sequence[list[Array]], build: "_Builder"
 ) -> list[int]:
     known = parameters(effect)
     columns = []
     names = amplitudes(effect) or [""]
-    for name, response in zip(
-        names, responses(problem, point, effect, base), strict=True
-    ):
+    for name, response in zip(names, answers, strict=True):
         prior = problem_prior(problem, effect, response)
         if prior is None:
             continue

@@ -162,6 +162,18 @@ def test_what_acts_already_is_still_fitted(size: float) -> None:
     assert magnitude == pytest.approx(size, abs=2.0)
 
 
+def test_two_processes_give_what_one_gives(blank: Problem, start: Point) -> None:
+    listed, _ = candidates(EFFECTS, blank, COLUMNS)
+    acting = start.with_effect(CoulombFriction(magnitude=10.0))
+    one, two = (
+        design(replace(blank, processes=count), acting, listed) for count in (1, 2)
+    )
+    np.testing.assert_array_equal(two.gram.products, one.gram.products)
+    np.testing.assert_array_equal(two.gram.moments, one.gram.moments)
+    assert [m.candidate for m in two.members] == [m.candidate for m in one.members]
+    assert two.faint == one.faint
+
+
 def test_what_acts_is_no_candidate(blank: Problem, start: Point) -> None:
     there = start.with_effect(CoulombFriction(magnitude=12.0))
     assert _only(design(blank, there, [BIAS, RUB])).candidate is BIAS
