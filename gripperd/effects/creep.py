@@ -105,9 +105,10 @@ class Creep(InMuscle):
             left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
             memory[:] = (1 - left) * load[0]
         for index, share in enumerate((self.fast, self.medium, self.slow)):
-            time = self.time * SPACING**index
-            state = memory[index : index + 1]
-            late += share * (load - lag(load, track.step, time, time, state))
+            if share:
+                time = self.time * SPACING**index
+                state = memory[index : index + 1]
+                late += share * (load - lag(load, track.step, time, time, state))
         return value - late
 
     def _load(self, track: Track) -> Array:

@@ -78,10 +78,12 @@ def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Arra
     forces
         As :data:`Forces`. [N]
     memory
-        As :func:`at_rest` gave it or the call before left it; it is moved on.
+        As :func:`at_rest` gave it or the call before left it; it is moved on, but for
+        springs that carry nothing.
     """
     total = np.zeros_like(signal)
     for index, force in enumerate(forces):
-        reach = radius * SPREAD ** (index - 1)
-        total += force / reach * stop(signal, reach, memory[index : index + 1])
+        if force:
+            reach = radius * SPREAD ** (index - 1)
+            total += force / reach * stop(signal, reach, memory[index : index + 1])
     return total
