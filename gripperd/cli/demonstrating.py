@@ -10,7 +10,8 @@ from rich.console import Console
 
 from gripperd import __version__
 from gripperd.cli.app import app
-from gripperd.cli.waiting import interruptible, progress
+from gripperd.cli.interrupt import interruptible
+from gripperd.cli.waiting import progress
 from gripperd.demo.files import FILES
 from gripperd.demo.rig import Hidden
 

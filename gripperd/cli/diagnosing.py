@@ -9,8 +9,9 @@ import typer
 
 from gripperd import __version__
 from gripperd.cli.app import ConfigFile, app
+from gripperd.cli.interrupt import interruptible
 from gripperd.cli.outputs import check_outputs, write
-from gripperd.cli.waiting import interruptible, progress
+from gripperd.cli.waiting import progress
 from gripperd.errors import ConfigError, InputError
 
 if TYPE_CHECKING:

@@ -4,12 +4,13 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 import typer
 
-from gripperd.cli.waiting import interruptible
+from gripperd.cli.interrupt import AGAIN, interruptible
 from gripperd.demo.files import write_rig
 from gripperd.demo.rig import Hidden
 from tests.daemon import PATIENCE, START, until
@@ -85,6 +86,43 @@ def test_an_interrupt_that_comes_out_of_c_as_another_error_is_one(
     assert capsys.readouterr().err == "interrupted; wrote nothing\n"
 
 
+class Swallowing:
+    """What is raised while it is taken away comes out nowhere."""
+
+    def __del__(self) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupt_that_is_swallowed_comes_again(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    done = []
+
+    def work() -> None:
+        Swallowing()
+        time.sleep(200 * AGAIN)
+        done.append("all of it")
+
+    with pytest.raises(typer.Exit) as left, interruptible(lambda: "wrote nothing"):
+        work()
+    assert left.value.exit_code == 130
+    assert capsys.readouterr().err == "interrupted; wrote nothing\n"
+    assert not done
+
+
+def test_nothing_comes_again_once_the_work_is_done() -> None:
+    def handlers() -> tuple[object, ...]:
+        numbers = (signal.SIGINT, signal.SIGALRM)
+        return (*map(signal.getsignal, numbers), sys.unraisablehook)
+
+    before = handlers()
+    with pytest.raises(typer.Exit), interruptible(lambda: "wrote all of it"):
+        Swallowing()
+    time.sleep(2 * AGAIN)
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+    assert handlers() == before
+
+
 def test_an_error_that_nobody_asked_for_goes_on() -> None:
     with pytest.raises(SystemError), interruptible(lambda: "wrote nothing"):
         raise SystemError
@@ -93,7 +131,7 @@ def test_an_error_that_nobody_asked_for_goes_on() -> None:
 # A dataclass is made by a string that is run: Ctrl-C may strike it at any import.
 STRING = """
 import signal, sys, typer
-from gripperd.cli.waiting import interruptible
+from gripperd.cli.interrupt import interruptible
 try:
     with interruptible(lambda: "wrote nothing"):
         exec("signal.raise_signal(signal.SIGINT)")
@@ -104,7 +142,7 @@ except typer.Exit as left:
 
 def test_a_string_that_is_interrupted_leaves_the_status(tmp_path: Path) -> None:
     (tmp_path / "made.py").write_text(STRING)
-    # As a module, as the command is: of a script Python keeps no such account.
+    # As a module, as `python -m gripperd` is: of a script Python keeps no such account.
     ended = subprocess.run([sys.executable, "-m", "made"], cwd=tmp_path, check=False)
     assert ended.returncode == 130
 
