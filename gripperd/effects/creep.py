@@ -101,7 +101,7 @@ class Creep(InMuscle):
         """Take from the pull what has not come yet."""
         load = self._load(track)
         late = np.zeros_like(load)
-        if np.isnan(memory).any() and load.size:
+        if np.isnan(memory).all() and load.size:
             left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
             memory[:] = (1 - left) * load[0]
         for index, share in enumerate((self.fast, self.medium, self.slow)):

@@ -79,7 +79,7 @@ def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Arra
         As :data:`Forces`. [N]
     memory
         As :func:`at_rest` gave it or the call before left it; it is moved on, but for
-        springs that carry nothing.
+        springs that carry nothing, now or in any other call.
     """
     total = np.zeros_like(signal)
     for index, force in enumerate(forces):

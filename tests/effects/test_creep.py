@@ -75,6 +75,26 @@ def test_what_has_settled_stays(muscle: Muscle) -> None:
     assert late(muscle, replace(CREEP, fresh=0.0), 400e3) == pytest.approx(0.0)
 
 
+def test_a_reading_that_was_lost_at_first_begins_nothing_anew(muscle: Muscle) -> None:
+    effect = Creep(fast=0.05)
+    pressure = np.where(TIME < 20.0, 100e3, 300e3)
+    pressure[0] = np.nan
+    whole = late(muscle, effect, pressure)
+    memory = effect.rest()
+    pieces = [
+        -effect.along(
+            np.zeros(TIME[part].size),
+            track_of(
+                muscle, time=TIME[part], step=np.diff(TIME, prepend=0.0)[part],
+                pressure=pressure[part],
+            ),
+            memory,
+        )
+        for part in (slice(45), slice(45, None))
+    ]  # fmt: skip
+    np.testing.assert_allclose(np.concatenate(pieces), whole)
+
+
 def test_only_a_record_without_a_past_begins(muscle: Muscle) -> None:
     effect = replace(CREEP, fresh=1.0)
     pressure = 300e3 + 100e3 * np.sin(TIME / 20)
