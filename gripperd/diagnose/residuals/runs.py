@@ -19,7 +19,7 @@ class Runs(Track):
 
     slices: tuple[slice, ...]
     """Samples of each run."""
-    within: Array
+    sliding: Array
     """Direction in which the bladder slides in its braid. [-1..1]"""
     beside: Array
     """What a smooth force leaves out when a late cell speaks of it, less what it leaves
@@ -43,9 +43,9 @@ class Runs(Track):
         )
 
     @cached_property
-    def inside(self) -> "Runs":
-        """The same as friction between bladder and braid has it."""
-        return replace(self, direction=self.within)
+    def of_bladder(self) -> "Runs":
+        """The same as the friction between bladder and braid has it."""
+        return replace(self, direction=self.sliding)
 
     @cached_property
     def _ends(self) -> tuple[Array, Array]:

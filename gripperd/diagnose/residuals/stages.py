@@ -33,7 +33,7 @@ a machine moves them 0.99; on objects, whose jaws but seem to move, up to 0.8. [
 HELD = 0.05
 """Share of its height by which a pressure changes under a machine, at most: a regulator
 holds it. [-]"""
-INSIDE = "braid_friction"
+BRAIDED = "braid_friction"
 """What rubs between the bladder and its braid."""
 TURNED = 4e-4
 """Half the way back, of a muscle inside a mount, over which its friction turns. [-]"""
@@ -124,11 +124,11 @@ def _strained(explanation: Explanation, track: Runs) -> Runs:
     contraction = track.contraction + stretch
     rate = track.rate + track.slope(stretch)
     turned = track.each(_turned, contraction) - track.each(_turned, track.contraction)
-    direction = np.clip(track.direction + turned, -1.0, 1.0)
-    # What turns by itself with the pressure has turned already.
-    within = track.within if track.within is not track.direction else direction
+    direction = sliding = np.clip(track.direction + turned, -1.0, 1.0)
+    if track.sliding is not track.direction:
+        sliding = np.clip(track.sliding + turned, -1.0, 1.0)
     return replace(
-        track, contraction=contraction, rate=rate, direction=direction, within=within
+        track, contraction=contraction, rate=rate, direction=direction, sliding=sliding
     )
 
 
@@ -140,8 +140,8 @@ def _turned(contraction: Array, run: Track) -> Array:
 
 def _along(effect: Effect, value: Array, track: Runs) -> Array:
     """Signal with an effect; one that remembers begins anew in each run."""
-    if effect.name == INSIDE and track.within is not track.direction:
-        track = track.inside
+    if effect.name == BRAIDED and track.sliding is not track.direction:
+        track = track.of_bladder
     if not effect.rest().size:
         return effect.along(value, track, effect.rest())
     return track.each(lambda one, run: effect.along(one, run, effect.rest()), value)
@@ -217,7 +217,7 @@ def passed_on(
     for effect in explanation.effects:
         if effect.signal is signal and not effect.rest().size:
             rough = [
-                _along(effect, value, one)
+                effect.along(value, one, effect.rest())
                 for value, one in zip(rough, (sharp, track), strict=True)
             ]
     return np.nan_to_num(rough[0] - rough[1])

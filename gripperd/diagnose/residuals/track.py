@@ -40,10 +40,10 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
     if regulator is not None:
         span = (regulator.pressure_low, regulator.pressure_high)
         command = np.clip(regulator.pressure(course.column("current")), *span)
-    direction = within = directions(explanation, course, *places)
+    direction = sliding = directions(explanation, course, *places)
     if explanation.at_rest is AtRest.BLADDER:
         inflating = replace(explanation, at_rest=AtRest.INFLATING)
-        within = directions(inflating, course, *places)
+        sliding = directions(inflating, course, *places)
     rough = Runs(
         muscle=explanation.muscle,
         time=course.time - course.start,
@@ -56,7 +56,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         contraction=_contraction(explanation, course),
         rate=course.rate("contraction"),
         direction=direction,
-        within=within,
+        sliding=sliding,
         came=_came(explanation, course, *places),
         force=course.level("force") - zeros.get(Signal.FORCE, 0.0),
         grip=course.level("grip"),

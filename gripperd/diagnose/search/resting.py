@@ -13,9 +13,10 @@ from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
-from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.stages import BRAIDED
 from gripperd.model.effect import Signal
 
 DECIDED = 5.0
@@ -42,8 +43,7 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     few = [one for one in listed if one.name in TELLING]
     best, most = problem, -np.inf
     known = problem.model.at_rest
-    # What rubs beside the braid has no sign before it is found.
-    others = [one for one in AtRest if one not in (known, AtRest.BLADDER)]
+    others = [sign for sign in _of(problem.model) if sign is not known]
     for sign in (known, *others):
         tried = replace(problem, model=replace(problem.model, at_rest=sign))
         start = polished(tried, Point(np.zeros(len(problem.constants)))).point
@@ -57,6 +57,14 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         if evidence > most + DECIDED:
             best, most = tried, evidence
     return best
+
+
+def _of(model: Explanation) -> list[AtRest]:
+    """Signs that are another for a model: only what rubs besides has one of its own."""
+    rubs = any(
+        one.turns == "contraction" for one in model.effects if one.name != BRAIDED
+    )
+    return [sign for sign in AtRest if rubs or sign is not AtRest.BLADDER]
 
 
 def with_sign_beside(problem: Problem, found: Rival) -> Problem:

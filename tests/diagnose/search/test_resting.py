@@ -126,11 +126,16 @@ def _sliding(moment: Moment) -> Array:
 
 def test_a_rod_that_rubs_does_not_keep_the_bladder_from_sliding_in_its_braid() -> None:
     _, problem = _decided(recording(_sliding))
-    assert problem.model.at_rest is not AtRest.BLADDER
     assert with_sign_beside(problem, fitted(problem)) is problem
     rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
     beside = with_sign_beside(problem, fitted(problem, rub))
     assert beside.model.at_rest is AtRest.BLADDER
+
+
+def test_a_rod_that_is_known_to_rub_may_stay_where_the_bladder_slides() -> None:
+    known = MODEL.with_effect(CoulombFriction(magnitude=25.0))
+    problem = problem_of(recording(_sliding), known, {})
+    assert with_resting_sign(problem, []).model.at_rest is AtRest.BLADDER
 
 
 def _shifted(time: Array, force: Array) -> Array:
