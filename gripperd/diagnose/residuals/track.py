@@ -168,7 +168,12 @@ def _came(explanation: Explanation, course: Course, *places: int) -> Array:
     return found
 
 
+def turning(pressure: Array, share: float) -> float:
+    """Half the way back that turns friction round where nothing travels. [Pa]."""
+    return max(share * float(np.ptp(pressure)), LEAST_TURNED)
+
+
 def _inflating(pressure: Array, sign: float, share: float) -> Array:
     """Sign of friction that turns with a pressure, from one as it came. [-1..1]."""
-    radius = max(share * float(np.ptp(pressure)), LEAST_TURNED)
+    radius = turning(pressure, share)
     return stop(pressure, radius, pressure[:1] - sign * radius) / radius

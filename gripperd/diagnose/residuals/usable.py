@@ -9,8 +9,11 @@ from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.travel import leaning, noticed, reversal, travel
+from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.diagnose.residuals.sticking import PRESSED, late, stuck
+from gripperd.diagnose.residuals.track import TURNED as INFLATED
+from gripperd.diagnose.residuals.track import turning
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -25,6 +28,8 @@ of good pressure transmitters. [-]"""
 TURNED = 0.1
 """Share of the way by which friction has turned round from which it is turning. [-]"""
 
+STANDS = 0.2
+"""The same within which a pressure that has turned may as well stand. [-]"""
 LOOSE = 0.98
 """Sign of friction from which joints that stuck have come loose. [-]"""
 
@@ -56,7 +61,7 @@ def usable(course: Course, signal: Signal) -> Mask:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
         good &= ~_winding(course)
     if sweeps and signal is Signal.FORCE:
-        good &= ~stuck(course) & ~late(course)
+        good &= ~stuck(course) & ~late(course) & ~_inflating(course)
     return good
 
 
@@ -124,6 +129,26 @@ def _reversals(course: Course) -> Mask:
         near[max(place - reach, 0) : place + reach] = True
         start = place
     return near
+
+
+def _inflating(course: Course) -> Mask:
+    """Samples while a pressure turns friction round where nothing travels.
+
+    How much of it nobody knows, nor how far the pressure went between two readings, and
+    back. What stands turns nothing.
+    """
+    pressure, found = course.level("pressure"), np.zeros(len(course), dtype=bool)
+    if course.direction.any():
+        return found
+    way = 2 * turning(pressure, INFLATED[AtRest.INFLATING])
+    sign = travel(pressure, way)
+    turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)
+    for start, end in pairwise([*turns.tolist(), sign.size]):
+        gone = np.abs(pressure[start - 1 : end] - pressure[start - 1])
+        back = int(np.argmax(gone > way))
+        stood = np.flatnonzero(gone[: back + 1] <= STANDS * way)[-1]
+        found[start - 1 + stood : start - 1 + back] = True
+    return found
 
 
 def _winding(course: Course) -> Mask:
