@@ -50,8 +50,8 @@ class Point:
 
     def with_effect(self, effect: Effect) -> "Point":
         """Put an effect in, in the place of one of its name if there is."""
-        acting = {one.name: one for one in self.effects} | {effect.name: effect}
-        return replace(self, effects=tuple(acting.values()))
+        others = tuple(one for one in self.effects if one.name != effect.name)
+        return replace(self, effects=(*others, effect))
 
     def without(self, name: str) -> "Point":
         """Take an effect out."""
