@@ -88,7 +88,10 @@ def test_what_is_not_established_is_not_claimed(creep: Diagnosis) -> None:
 
 
 def test_an_open_question_does_not_hide_what_is_sure(creep: Diagnosis) -> None:
-    gap = replace(creep.gaps[Signal.FORCE], before=29.65, after=2.617, noise_floor=3.04)
+    gap = replace(
+        creep.gaps[Signal.FORCE], before=29.65, recalibrated=11.66, after=2.617,
+        noise_floor=3.04,
+    )  # fmt: skip
     sure = creep.named[0]
     lag = replace(sure, name="valve_lag", equivalents=("channel_delay",))
     two = replace(
@@ -124,7 +127,10 @@ def test_what_is_unexplained_says_how_much_is_left(creep: Diagnosis) -> None:
 
 
 def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:
-    gap = replace(creep.gaps[Signal.FORCE], before=29.65, after=2.617, noise_floor=3.04)
+    gap = replace(
+        creep.gaps[Signal.FORCE], before=29.65, recalibrated=11.66, after=2.617,
+        noise_floor=3.04,
+    )  # fmt: skip
     said = summary(replace(creep, gaps={Signal.FORCE: gap}))
     assert said == (
         "The model lacks creep; on data it never saw the force is off by 2.62 N"

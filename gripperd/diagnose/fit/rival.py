@@ -60,16 +60,22 @@ def _fitted(problem: Problem, point: Point) -> Polished:
 
 
 def _switched_off(point: Point) -> Point:
-    """Give a point with 0 for every shape that ended where 0 would be another law."""
-    for effect in point.effects:
-        off = {
+    """Give a point with 0 for every shape that ended where 0 would be another law.
+
+    Its effects act in the same order, so that nothing else differs.
+    """
+    off = [
+        {
             name: 0.0
             for name, known in in_use(effect, effect.idle).items()
             if known.switches and 0 < getattr(effect, name) <= LEAST_ON * known.high
         }
-        if off:
-            point = point.with_effect(replace(effect, **off))
-    return point
+        for effect in point.effects
+    ]
+    if not any(off):
+        return point
+    plain = zip(point.effects, off, strict=True)
+    return replace(point, effects=tuple(replace(one, **to) for one, to in plain))
 
 
 def larger(

@@ -4,6 +4,7 @@ import numpy as np
 
 from gripperd.diagnose.noise.drift import Quiet, hold, repeat
 from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.row import alike
 from gripperd.diagnose.residuals.problem import Problem
@@ -94,17 +95,27 @@ def repeated(
             taken |= {i, j}
             if first != (one.cycle[0] < FIRST):
                 continue
-            size = min(residuals[i].size, residuals[j].size)
-            load = problem.measured[i][:size]
+            here, there = _shared(problem.blocks[i].good, problem.blocks[j].good)
+            if not here.any():
+                continue
+            load = problem.measured[i][here]
             found.append(
                 repeat(
-                    problem.times[i][:size],
-                    residuals[i][:size],
-                    residuals[j][:size],
+                    problem.times[i][here],
+                    residuals[i][here],
+                    residuals[j][there],
                     load / max(float(np.max(np.abs(load))), 1e-300),
                 )
             )
     return found
+
+
+def _shared(one: Mask, other: Mask) -> tuple[Mask, Mask]:
+    """Which of the samples of each have one of the other at the same place."""
+    size = min(one.size, other.size)
+    both = np.zeros(max(one.size, other.size), dtype=bool)
+    both[:size] = one[:size] & other[:size]
+    return both[: one.size][one], both[: other.size][other]
 
 
 def _run(course: Course) -> Run:

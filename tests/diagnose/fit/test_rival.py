@@ -75,9 +75,12 @@ def test_a_friction_that_need_not_slip_is_there_at_rest_as_well(
     problem = problem_of(recording(hidden), MODEL, {})
     # The least there is: travel calls up all of it, and rest nothing.
     slips = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0, slip=1e-4))
+    bias = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
     start = Point(np.zeros(len(problem.constants)))
-    (rival,) = fitted(problem, [((slips,), added(start, slips))])
-    (effect,) = rival.fit.point.effects
+    (rival,) = fitted(problem, [((slips, bias), added(added(start, slips), bias))])
+    # They act in the order they had.
+    effect, last = rival.fit.point.effects
+    assert isinstance(last, ForceSensorBias)
     assert isinstance(effect, CoulombFriction)
     assert (effect.slip == 0) == rubs_at_rest
     assert effect.magnitude == pytest.approx(25.0, abs=1.5)

@@ -10,6 +10,7 @@ from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.loudness import _handed_on
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.quiet import repeated
 from gripperd.diagnose.setup import problem_of
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -220,3 +221,22 @@ def test_points_of_a_table_are_no_neighbours_of_each_other() -> None:
     top = problem.full_scale[Signal.GRIP]
     # Beside its own that of the force, 2.6 N over 4.
     assert 0.002 * top <= problem.noises[Signal.GRIP].std < 0.01 * top
+
+
+def test_a_sweep_and_its_repeat_are_compared_where_both_tell() -> None:
+    """A reading that one of them lacks shifts none of the rest against each other."""
+    told = recording(lambda m: 0.5 * m.pressure * m.pull_area)
+    gaps = altered(told, ["b"], "force", _without_one)
+    problem = problem_of(gaps, MODEL, {})
+    blocks = problem.blocks
+    indices = [i for i, block in enumerate(blocks) if block.signal is Signal.FORCE]
+    residuals = problem.residuals(_null(problem))
+    (quiet,) = repeated(problem, residuals, indices, first=False)
+    # 10 kPa from one sample to the next are 7 N and more of what is hidden.
+    assert np.std(quiet.residual) == pytest.approx(2**0.5 * FORCE_NOISE, rel=0.2)
+
+
+def _without_one(force: Array) -> Array:
+    lacking = force.copy()
+    lacking[20] = np.nan
+    return lacking

@@ -99,7 +99,9 @@ def test_where_a_force_sets_in_no_trend_makes_a_muscle_taut(blank: Problem) -> N
 
 
 def test_the_full_scale_is_the_largest_reading(blank: Problem) -> None:
-    readings = [course.column("force") for course in blank.courses]
+    # What is read where the pressure turns, at its highest, tells nothing.
+    turn = [50, 51]
+    readings = [np.delete(course.column("force"), turn) for course in blank.courses]
     top = float(np.max(np.concatenate(readings)))
     assert blank.full_scale[Signal.FORCE] == pytest.approx(top, rel=0.01)
 
