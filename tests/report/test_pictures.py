@@ -64,7 +64,8 @@ def test_no_line_is_drawn_across_missing_samples(found: tuple[Trace, ...]) -> No
     lines = drawn(axes)
     assert len(lines) == 2 * len(found)
     for (x, y), one in zip(lines[::2], found, strict=True):
-        assert np.nanmax(np.diff(x)) < 3.5 * STEP
+        # One sample is left out where the pressure turns, and no more are bridged.
+        assert np.nanmax(np.diff(x)) < 2.5 * STEP
         left = one.residual(State.RECALIBRATED)
         np.testing.assert_allclose(y[np.isfinite(y)], left)
 
