@@ -198,5 +198,6 @@ def side(effect: Effect) -> int:
 
 
 def amplitudes(effect: Effect) -> list[str]:
-    """Names of the parameters the effect is proportional to."""
-    return [name for name, one in parameters(effect).items() if one.is_amplitude]
+    """Names of the parameters in use that the effect is proportional to."""
+    known = in_use(effect, effect.idle)
+    return [name for name, one in known.items() if one.is_amplitude]

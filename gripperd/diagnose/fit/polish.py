@@ -196,7 +196,6 @@ def slopes(
 ) -> Array:
     """Whitened change of every prediction for one unit of each parameter, (n, k)."""
     base = Base.of(problem, point)
-    acting = {effect.name: effect for effect in point.effects}
     columns = sensitivities(problem, point, base)
     here = coefficients(point, coordinates)
     count = point.shifts.size
@@ -204,8 +203,10 @@ def slopes(
         step = _step(coordinate, here[count + index])
         vector = here.copy()
         vector[count + index] += step
-        there = problem.explanation(_moved(problem, point, coordinates, vector))
-        effect = acting[coordinate.effect]
+        moved = _moved(problem, point, coordinates, vector)
+        # What is 0 so far changes nothing elsewhere, but may once it has moved.
+        effect = next(e for e in moved.effects if e.name == coordinate.effect)
+        there = problem.explanation(moved)
         columns.append(change(problem, base, there, effect, step))
     units = [*point.widths.tolist(), *(1.0 for _ in coordinates)]
     return np.concatenate(

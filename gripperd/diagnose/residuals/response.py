@@ -10,7 +10,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.runs import Runs
 from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
-from gripperd.model.parameter import parameters
+from gripperd.model.parameter import in_use
 from gripperd.model.track import Array
 
 STEP = 0.25
@@ -79,7 +79,7 @@ def _of_course(problem: Problem, readings: list[Array], course: int) -> list[Arr
 def responses(
     problem: Problem, point: Point, effect: Effect, base: Base | None = None
 ) -> list[list[Array]]:
-    """Change of every block for one scale of each amplitude of an effect.
+    """Change of every block for one scale of each amplitude in use of an effect.
 
     For an effect that already acts at the point, the slope there; for a new one
     its response at one scale, so that an effect with a threshold is seen.
@@ -138,7 +138,7 @@ def moves(effect: Effect) -> frozenset[Signal] | None:
 
 def _nudged(effect: Effect, *, acts: bool) -> Iterator[tuple[Effect, float]]:
     """Give the effect with one amplitude moved at a time, and by how many scales."""
-    known = parameters(effect)
+    known = in_use(effect, effect.idle)
     amplitudes = [name for name, one in known.items() if one.is_amplitude]
     if not amplitudes and not acts:
         yield effect, 1.0

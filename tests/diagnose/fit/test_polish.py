@@ -14,9 +14,12 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep, Creeping
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.effects.series_compliance import SeriesCompliance
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_lag import ValveLag
 from gripperd.model.effect import Effect
+from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
@@ -263,3 +266,33 @@ def test_a_step_that_leads_too_far_is_shortened_until_it_helps() -> None:
     box = Bounds(*bounds(problem, found.point, found.coordinates))
     best = minimize(cost, here, method="L-BFGS-B", bounds=box, options={"maxiter": 3})
     assert best.fun > 0.99 * found.cost
+
+
+def test_the_size_of_relays_is_found() -> None:
+    # A prior of another parameter's width held them at half their size.
+    plain = _problem()
+    hidden = PreslidingHysteresis(hysteron=Hysteron.RELAY, relays=120.0)
+    problem = _told(plain, hidden)
+    start = PreslidingHysteresis(hysteron=Hysteron.RELAY, relays=10.0)
+    found = polished(problem, _start(problem, start))
+    (effect,) = found.point.effects
+    assert isinstance(effect, PreslidingHysteresis)
+    assert effect.relays == pytest.approx(120.0, rel=0.05)
+
+
+def test_a_shortening_is_found_from_none_at_all() -> None:
+    plain = _problem()
+    hidden = SeriesCompliance(shortening=1e-5)
+    problem = _told(plain, hidden)
+    found = polished(problem, _start(problem, SeriesCompliance()))
+    (effect,) = found.point.effects
+    assert isinstance(effect, SeriesCompliance)
+    assert effect.shortening == pytest.approx(1e-5, rel=0.05)
+
+
+def _told(problem: Problem, hidden: Effect) -> Problem:
+    """The same sweeps, with the readings of an effect without noise."""
+    truth = problem.explanation(_start(problem, hidden))
+    told = replace(problem)
+    told.__dict__["measured"] = problem.expected(truth)
+    return told
