@@ -33,6 +33,8 @@ class Creeping(StrEnum):
 
     PULL = "pull"
     """What the pressure makes of the braid."""
+    PRESSURE = "pressure"
+    """What the bladder passes on of the pressure: it pulls at the length of now."""
     RUBBER = "rubber"
     """What the stretched bladder pulls back with: it relaxes after a stroke."""
 
@@ -48,8 +50,10 @@ class Creep(InMuscle):
               u = p \left[A(0) + l (A(h) - A(0))\right]
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when the bladder creeps under pressure alone. One that relaxes under its own stretch
-    has ``u = 5 F_s(h)``, of eq. (5). Once settled it adds nothing. A record that begins
+    when the bladder creeps under pressure alone. One that passes the pressure on late
+    has ``u = p`` and pulls by A(h) with what is late of it, so that a travel under a
+    settled pressure calls nothing up. One that relaxes under its own stretch has
+    ``u = 5 F_s(h)``, of eq. (5). Once settled it adds nothing. A record that begins
     under a load goes on from a wait under it, which may have been long.
     """
 
@@ -69,7 +73,7 @@ class Creep(InMuscle):
     )
 
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
-        {Creeping.RUBBER: ("leverage",)}
+        dict.fromkeys((Creeping.PRESSURE, Creeping.RUBBER), ("leverage",))
     )
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
         {Creeping.RUBBER: "rubber_elasticity"}
@@ -109,11 +113,15 @@ class Creep(InMuscle):
                 time = self.time * SPACING**index
                 state = memory[index : index + 1]
                 late += share * (load - lag(load, track.step, time, time, state))
+        if self.of is Creeping.PRESSURE:
+            late *= track.pull_area
         return value - late
 
     def _load(self, track: Track) -> Array:
-        """What creeps goes after. [N]."""
+        """What creeps goes after. [N], of a pressure [Pa]."""
         muscle = track.muscle
+        if self.of is Creeping.PRESSURE:
+            return track.pressure
         if self.of is Creeping.RUBBER:
             ratio = track.diameter_ratio
             return np.asarray(RUBBER * muscle.elastic_force(track.contraction, ratio))

@@ -71,6 +71,32 @@ def test_a_bladder_relaxes_under_its_own_stretch(muscle: Muscle) -> None:
     np.testing.assert_array_equal(forces[0], forces[1])
 
 
+def test_what_is_late_of_a_pressure_pulls_at_the_length_of_now(muscle: Muscle) -> None:
+    """By a tenth shorter 50 s after a step, by A(h) of eq. (4) as the paper has it."""
+    shortened = np.where(TIME >= 50.0, 0.1, 0.0)
+    pressure = np.where(TIME > 0, 400e3, 0.0)
+    cosine = (1 - shortened) * np.cos(muscle.braid_angle)
+    ring = np.pi * muscle.diameter**2 / (4 * np.sin(muscle.braid_angle) ** 2)
+    found = _pressed(muscle, pressure, shortened)
+    expected = left_of(400e3 * ring) * (3 * cosine**2 - 1)
+    assert found[1:] == pytest.approx(expected[1:], rel=1e-6)
+
+
+def test_a_travel_under_a_settled_pressure_calls_nothing_up(muscle: Muscle) -> None:
+    shortened = np.linspace(0.0, 0.2, TIME.size)
+    assert _pressed(muscle, np.full(TIME.size, 400e3), shortened) == pytest.approx(0.0)
+
+
+def _pressed(muscle: Muscle, pressure: Array, contraction: Array) -> Array:
+    """What is late of a pressure that the bladder passes on. [N]."""
+    step = np.diff(TIME, prepend=0.0)
+    track = track_of(
+        muscle, time=TIME, step=step, pressure=pressure, contraction=contraction
+    )
+    effect = replace(CREEP, of=Creeping.PRESSURE)
+    return -effect.along(np.zeros_like(TIME), track, effect.rest())
+
+
 def test_what_has_settled_stays(muscle: Muscle) -> None:
     assert late(muscle, replace(CREEP, fresh=0.0), 400e3) == pytest.approx(0.0)
 
