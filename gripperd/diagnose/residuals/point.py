@@ -49,9 +49,15 @@ class Point:
         return 0.0 if self.looser else float(np.sum(np.maximum(normal - student, 0.0)))
 
     def with_effect(self, effect: Effect) -> "Point":
-        """Put an effect in, in the place of one of its name if there is."""
-        others = tuple(one for one in self.effects if one.name != effect.name)
+        """Put an effect in, last, and take out one of its name."""
+        others = self.without(effect.name).effects
         return replace(self, effects=(*others, effect))
+
+    def changed(self, effect: Effect) -> "Point":
+        """Change one that acts: it acts in its turn as before, on what it acted on."""
+        at = [one.name for one in self.effects].index(effect.name)
+        effects = (*self.effects[:at], effect, *self.effects[at + 1 :])
+        return replace(self, effects=effects)
 
     def without(self, name: str) -> "Point":
         """Take an effect out."""

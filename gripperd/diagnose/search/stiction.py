@@ -80,6 +80,6 @@ def _plainest(problem: Problem, rival: Rival) -> Rival:
 
 def _plainer(problem: Problem, rival: Rival, effect: Effect, name: str) -> Rival:
     (here,) = (one for one in rival.fit.point.effects if one.name == effect.name)
-    point = rival.fit.point.with_effect(replace(here, **{name: 0.0}))
+    point = rival.fit.point.changed(replace(here, **{name: 0.0}))
     plain = replace(rival, fit=polished(problem, point))
     return plain if plain.evidence > rival.evidence - DECIDED else rival

@@ -105,8 +105,8 @@ def test_the_forms_of_an_effect_are_all_combinations_of_its_starts(name: str) ->
     wanted = 2 if EFFECTS[name].one_sided else 1
     for one in known.values():
         wanted *= len(one.starts or one.choices or (None,))
-    # A bladder that relaxes has one leverage, not two.
-    wanted -= wanted // 4 if name == "creep" else 0
+    # Of the three that may creep, only the pull has two leverages.
+    wanted -= wanted // 3 if name == "creep" else 0
     # Only what trails has a spread, and only what wakes a speed.
     wanted = 2 + 1 + 2 if name == "valve_dead_band" else wanted
     # Springs alone have a distance and one sign, relays alone a middle and a curve.
@@ -187,13 +187,14 @@ def test_channels_that_are_late_are_candidates_of_several_kinds() -> None:
     }
     assert kinds == {("channel_delay", "force"), ("channel_delay", "contraction")}
     creeps = {Candidate("creep", form).kind for form in forms(Creep)}
-    assert creeps == {("creep", "pull"), ("creep", "rubber")}
+    assert creeps == {("creep", "pull"), ("creep", "pressure"), ("creep", "rubber")}
 
 
 def test_rubber_that_creeps_is_no_candidate_without_rubber(blank: Problem) -> None:
     """It would stand in for the rubber itself."""
     bare = replace(blank, model=replace(MODEL, effects=()))
-    for problem, known in ((blank, {"pull", "rubber"}), (bare, {"pull"})):
+    plain = {"pull", "pressure"}
+    for problem, known in ((blank, plain | {"rubber"}), (bare, plain)):
         listed, _ = candidates({"creep": Creep}, problem, MEASURED)
         assert {one.kind[1] for one in listed if one.name == "creep"} == known
 

@@ -71,3 +71,11 @@ def test_looser_priors_hold_for_all_constants(start: Point) -> None:
     looser = tuple(2.0 for _ in start.shifts)
     point = replace(start, looser=looser, freed=frozenset({1}))
     assert set(point.widths) == {2.0}
+
+
+def test_one_that_is_changed_acts_in_its_turn(start: Point) -> None:
+    first, second = CoulombFriction(magnitude=5.0), ValveOffset()
+    point = replace(start, effects=(first, second))
+    more = CoulombFriction(magnitude=9.0)
+    assert point.changed(more).effects == (more, second)
+    assert point.with_effect(more).effects == (second, more)
