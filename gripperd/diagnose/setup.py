@@ -58,7 +58,7 @@ def problem_of(
     }
     rough = Problem(sweeps, model, (), loud, _slack(sweeps, loud))
     check_plausible(rough, recording.name)
-    # What is left out later must not even tell how loud the noise is.
+    # What is left out later must not even tell, by its misfit, how loud noise is.
     parts = split(rough)
     check_judged(parts, recording.name)
     scales = dict(parts.train.full_scale)

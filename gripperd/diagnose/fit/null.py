@@ -39,8 +39,12 @@ def null_gains(
     best = np.zeros(SIMULATIONS)
     for member in members:
         gain = _explained(products, draws, design.columns(member)) - base
-        if member.columns.size == 1 and gram.low[member.columns[0]] >= 0:
-            gain = np.where(_negative(products, draws, design, member), 0.0, gain)
+        if member.columns.size == 1:
+            (column,) = member.columns
+            size = _size(products, draws, design, member)
+            below = (gram.low[column] >= 0) & (size < 0)
+            above = (gram.high[column] <= 0) & (size > 0)
+            gain = np.where(below | above, 0.0, gain)
         np.maximum(best, gain, out=best)
     return np.sort(best)
 
@@ -56,9 +60,8 @@ def _explained(
     return np.asarray(0.5 * (squares - volume))
 
 
-def _negative(
-    products: Array, draws: Array, design: Design, member: Member
-) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
+def _size(products: Array, draws: Array, design: Design, member: Member) -> Array:
+    """Size of a candidate that has one, in its priors, one a draw. [-]."""
     columns = design.columns(member)
     matrix = products[np.ix_(columns, columns)] + np.eye(columns.size)
-    return np.asarray(np.linalg.solve(matrix, draws[columns])[-1] < 0)
+    return np.asarray(np.linalg.solve(matrix, draws[columns])[-1])

@@ -103,7 +103,7 @@ def repeat(time: Array, first: Array, second: Array, load: Array) -> Quiet:
 
 
 def thinned(quiet: Iterable[Quiet], most: int = 3000) -> list[Quiet]:
-    """Keep the stretches short: a drift is slow, more samples say nothing new."""
+    """Keep the first samples of each stretch: a likelihood takes time."""
     return [
         Quiet(q.time[:most], q.residual[:most], q.regressors[:most], q.loudness)
         for q in quiet

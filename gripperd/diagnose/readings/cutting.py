@@ -124,7 +124,7 @@ def _course(
 
 
 def _with_contraction(run: Run, rest_length: float) -> Run:
-    if "contraction" in run.columns or "length" not in run.columns:
+    if run.has("contraction") or not run.has("length"):
         return run
     contraction = (rest_length - run.columns["length"]) / rest_length
     return Run(run.name, {**run.columns, "contraction": contraction}, run.kind)

@@ -38,7 +38,8 @@ def cycles(sweeps: Sequence[Run]) -> list[Array]:
     done = 0.0
     peak, trough = 0.0, np.inf
     counts: list[Array] = []
-    for share in _shares(sweeps):
+    nexts = [*(sweep.source for sweep in sweeps[1:]), ""]
+    for sweep, after, share in zip(sweeps, nexts, _shares(sweeps), strict=True):
         count = np.full(share.size, done)
         for index, value in enumerate(share):
             if not peak:
@@ -53,8 +54,8 @@ def cycles(sweeps: Sequence[Run]) -> list[Array]:
                 if value > max(FULL, trough / HALF):
                     done, peak, trough = done + 1, value, np.inf
             count[index] = done
-        # The rig rests between runs, which ends an inflation.
-        if peak:
+        # The rig rests between runs, which ends an inflation; a pause in one does not.
+        if peak and sweep.source != after:
             done, peak, trough = done + 1, 0.0, np.inf
         counts.append(count)
     return counts

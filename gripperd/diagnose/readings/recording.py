@@ -38,6 +38,11 @@ class Run:
         """Number of samples."""
         return self.columns["time"].size
 
+    @property
+    def source(self) -> str:
+        """Name of the run that it is, or is a piece of: cut at a pause, ``name#2``."""
+        return self.name.partition("#")[0]
+
     def has(self, column: str) -> bool:
         """Whether there is any believable value of it."""
         return column in self.columns and bool(np.isfinite(self.columns[column]).any())

@@ -35,15 +35,12 @@ def alike(one: Run, other: Run) -> bool:
     n, m = len(one), len(other)
     if abs(n - m) > 0.1 * max(n, m):
         return False
-    asked = ("current", "contraction") if one.has("current") else (
-        "pressure", "contraction",
-    )  # fmt: skip
+    command = "current" if one.has("current") or other.has("current") else "pressure"
+    asked = [n for n in (command, "contraction") if one.has(n) or other.has(n)]
+    if not asked or not all(one.has(n) and other.has(n) for n in asked):
+        return False
     for name in asked:
-        a, b = one.columns.get(name), other.columns.get(name)
-        if a is None or b is None:
-            if a is not b:
-                return False
-            continue
+        a, b = one.columns[name], other.columns[name]
         k = min(n, m)
         reach = max(np.nanmax(np.abs(a), initial=0.0), REACH.get(name, 0.0))
         apart = np.abs(a[:k] - b[:k])

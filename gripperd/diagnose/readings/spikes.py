@@ -29,7 +29,9 @@ AMONG = 3.0
 """The same from which it is one however often the signal steps, as up a staircase."""
 COMMON = 0.05
 """A larger share of samples is not isolated; it is the signal."""
-CAUSES = frozenset({"current", "pressure", "contraction", "length", "opening", "force"})
+CAUSES = frozenset(
+    {"current", "pressure", "contraction", "length", "opening", "force", "grip"}
+)
 """Columns whose movement can explain that of another."""
 KEPT = frozenset({"time", "current", "object", "supply"})
 """What is set, not measured; and the supply, which does sag for a moment."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import inf, isfinite
 from typing import TypeVar
 
 from gripperd.diagnose.residuals.explanation import Explanation
@@ -89,6 +89,11 @@ class Constant:
         made = not self.stated and not self.path.endswith("friction_coefficient")
         return MADE if made else TOLERATED
 
+    def value(self, shift: float) -> float:
+        """As it is when off by so many sigma, within what could be made at all."""
+        low, high = _MADE_AT_ALL.get(self.path, (-inf, inf))
+        return min(max(self.nominal + shift * self.sigma, low), high)
+
     @property
     def course(self) -> int | None:
         """The only sweep it changes, if there is but one."""
@@ -97,8 +102,12 @@ class Constant:
 
 
 _MADE_AT_ALL: Mapping[str, tuple[float, float]] = {
-    "braid_angle": (0.09, 0.95), "friction_coefficient": (0.0, 2.0),
-}  # fmt: skip
+    f"muscle.{name}": (1e-6, 1e12) for name in MUSCLE
+} | {
+    "muscle.braid_angle": (0.09, 0.95),
+    "muscle.friction_coefficient": (0.0, 2.0),
+    "response.valve": (0.0, inf),
+}
 _JAWS = frozenset({Signal.OPENING, Signal.GRIP})
 _LATER = frozenset(
     {"response.valve", "zero.opening", "zero.grip", "skew.opening", "skew.grip"}
@@ -194,11 +203,10 @@ def moved(
     values: dict[str, dict[str, float]] = {}
     for constant, shift in zip(listed, shifts, strict=True):
         owner, _, name = constant.path.partition(".")
-        moved_to = constant.nominal + shift * constant.sigma
-        values.setdefault(owner, {})[name] = moved_to
+        values.setdefault(owner, {})[name] = constant.value(shift)
     return replace(
         explanation,
-        muscle=replace(explanation.muscle, **_kept(values.get("muscle", {}))),
+        muscle=replace(explanation.muscle, **values.get("muscle", {})),
         regulator=explanation.regulator
         and replace(explanation.regulator, **values.get("valve", {})),
         linkage=explanation.linkage
@@ -206,7 +214,7 @@ def moved(
         zeros={Signal(name): zero for name, zero in values.get("zero", {}).items()},
         rests=_signs(values.get("rest", {})),
         skews={Signal(name): skew for name, skew in values.get("skew", {}).items()},
-        response=max(values.get("response", {}).get("valve", 0.0), 0.0),
+        response=values.get("response", {}).get("valve", 0.0),
     )
 
 
@@ -220,15 +228,6 @@ def _signs(values: Mapping[str, float]) -> dict[int, float]:
 def together(one: Sign, other: float) -> Sign:
     """Add two signs of friction as velocities add up: both are felt from -1 to 1."""
     return (one + other) / (1 + one * other)
-
-
-def _kept(values: Mapping[str, float]) -> dict[str, float]:
-    """Keep the constants of a muscle within what could be made at all."""
-    kept = {}
-    for name, value in values.items():
-        low, high = _MADE_AT_ALL.get(name, (1e-6, 1e12))
-        kept[name] = min(max(value, low), high)
-    return kept
 
 
 def _part(explanation: Explanation, owner: str) -> object | None:

@@ -38,7 +38,6 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
     command = np.full_like(course.time, np.nan)
     zeros = explanation.zeros
     if regulator is not None:
-        span = (regulator.pressure_low, regulator.pressure_high)
         command = np.clip(regulator.pressure(course.column("current")), *span)
     direction = sliding = directions(explanation, course, *places)
     if explanation.at_rest is AtRest.BLADDER:

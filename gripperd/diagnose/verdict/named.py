@@ -117,12 +117,12 @@ def _estimates(
     if effect is None:
         assert candidate.constant is not None
         constant = problem.constants[candidate.constant]
-        width = constant.sigma * float(point.widths[candidate.constant])
+        width = float(point.widths[candidate.constant])
         shift = float(point.shifts[candidate.constant])
-        value = constant.nominal + shift * constant.sigma
-        std = width * float(variances[candidate.constant]) ** 0.5
+        value = constant.value(shift)
+        std = constant.sigma * width * float(variances[candidate.constant]) ** 0.5
         reach = width * float(problem.reach(point)[candidate.constant])
-        ends = constant.nominal - reach, constant.nominal + reach
+        ends = constant.value(-reach), constant.value(reach)
         return {constant.path.rpartition(".")[2]: Estimate(value, std, *ends)}
     start = point.shifts.size
     sought = {

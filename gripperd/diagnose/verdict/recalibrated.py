@@ -51,5 +51,6 @@ def recalibrated(problem: Problem, told: Rival) -> Iterator[Recalibrated]:
             scale = constant.sigma / key.factor
             model = constant.nominal / key.factor
             yield Recalibrated(
-                constant, key, model, scale, model + shift * scale, std * scale
-            )
+                constant, key, model, scale,
+                constant.value(shift) / key.factor, std * scale,
+            )  # fmt: skip

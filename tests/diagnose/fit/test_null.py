@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -75,6 +77,29 @@ def test_the_price_of_looking_is_that_of_simulated_recordings(one_sided: bool) -
         assert np.quantile(gains, level) == pytest.approx(
             float(np.quantile(brute, level)), abs=0.2
         )
+
+
+def test_one_that_cannot_be_positive_costs_as_much_as_its_mirror_image() -> None:
+    design = _design(_columns(), np.zeros(SAMPLES), one_sided=True)
+    sign = np.where(np.arange(NUISANCE + OTHERS) < NUISANCE, 1.0, -1.0)
+    gram = design.gram
+    high = np.where(sign < 0, 0.0, np.inf)
+    low = np.full(high.size, -np.inf)
+    mirrored = gram.products * np.outer(sign, sign)
+    other = replace(gram, products=mirrored, low=low, high=high)
+    levels = [
+        np.quantile(
+            np.concatenate(
+                [
+                    null_gains(one, one.members, np.random.default_rng(seed))
+                    for seed in range(10)
+                ]
+            ),
+            0.97,
+        )
+        for one in (design, replace(design, gram=other))
+    ]
+    assert levels[0] == pytest.approx(levels[1], abs=0.1)
 
 
 def test_gains_rise_and_none_is_negative() -> None:

@@ -65,6 +65,12 @@ def test_a_length_becomes_a_contraction() -> None:
     np.testing.assert_allclose(course.column("contraction"), WAY, atol=1e-12)
 
 
+def test_a_length_tells_where_the_column_of_contraction_is_empty() -> None:
+    empty = np.full(WAY.size, np.nan)
+    (course,) = cut(run(length=REST_LENGTH * (1 - WAY), contraction=empty))
+    np.testing.assert_allclose(course.column("contraction"), WAY, atol=1e-12)
+
+
 def test_what_was_not_measured_is_not_a_number() -> None:
     course = cycled(WAY)
     assert np.isnan(course.column("force")).all()

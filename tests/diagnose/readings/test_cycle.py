@@ -89,3 +89,14 @@ def test_without_pressure_and_command_no_inflation_is_known() -> None:
     )
     assert not first.cycle.any()
     assert not second.cycle.any()
+
+
+def test_a_pause_of_the_log_ends_no_inflation() -> None:
+    time = np.concatenate([0.1 * np.arange(100), 60.0 + 0.1 * np.arange(100)])
+    held = np.concatenate([np.linspace(0.0, 400e3, 100), np.full(100, 400e3)])
+    first, second, last = _cut(
+        run("x", time=time, pressure=held),
+        _after(run("y", pressure=triangle(100)), 500.0),
+    )
+    assert (first.cycle[-1], second.cycle[0], second.cycle[-1]) == (0, 0, 0)
+    assert last.cycle[0] == 1

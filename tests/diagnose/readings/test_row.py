@@ -79,3 +79,15 @@ def test_sweeps_are_alike_when_they_ask_the_same() -> None:
 )
 def test_sweeps_that_differ_are_not_alike(other: Run) -> None:
     assert not alike(run(pressure=triangle(), contraction=np.full(400, 0.1)), other)
+
+
+def test_whichever_comes_first_they_are_alike_or_not() -> None:
+    still = np.full(400, 0.1)
+    told = run(pressure=triangle(), contraction=still, current=triangle() / 5e7)
+    untold = run(pressure=triangle(), contraction=still)
+    assert not alike(told, untold)
+    assert not alike(untold, told)
+
+
+def test_sweeps_that_tell_nothing_of_what_was_asked_are_not_alike() -> None:
+    assert not alike(run(force=triangle()), run(force=-triangle()))

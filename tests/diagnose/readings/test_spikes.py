@@ -145,3 +145,12 @@ def test_a_step_and_its_overshoot_are_never_spikes(
 def test_a_sudden_step_is_never_a_spike(at: int, height: float, std: float) -> None:
     force = 300 + np.where(np.arange(200) >= at, height, 0.0) + noise(200, std)
     assert _rows(run(force=force)) == {}
+
+
+def test_what_both_cells_of_a_gripper_feel_stays() -> None:
+    felt = {"grip": pulled(seed=5).columns["force"]}
+    sweep = replace(pulled(), columns={**pulled().columns, **felt})
+    bumped = _with(
+        _with(sweep, "force", slice(120, 122), 300.0), "grip", slice(120, 122), 300.0
+    )
+    assert _rows(bumped) == {}

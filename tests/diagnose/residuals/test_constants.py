@@ -171,3 +171,17 @@ def test_a_part_without_a_tolerance_is_off_by_2_percent_and_friction_by_20(
 ) -> None:
     (one,) = (one for one in constants(JAWED, {}, SCALES, [2]) if one.path == path)
     assert one.reach * one.sigma == pytest.approx(share * one.nominal, rel=0.005)
+
+
+@pytest.mark.parametrize(
+    ("path", "told"),
+    [("muscle.friction_coefficient", 0.0), ("muscle.braid_angle", 0.09)],
+)
+def test_a_constant_is_told_as_the_model_has_it(path: str, told: float) -> None:
+    listed = constants(MODEL, {}, {}, [])
+    (place,) = (i for i, one in enumerate(listed) if one.path == path)
+    far = [0.0] * len(listed)
+    far[place] = -100.0
+    assert listed[place].value(-100.0) == told
+    muscle = moved(MODEL, listed, far).muscle
+    assert getattr(muscle, path.partition(".")[2]) == told
