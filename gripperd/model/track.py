@@ -23,7 +23,7 @@ class Track:
     step: Array
     """Since the sample before; 0 for the first of a run. [s]"""
     command: Array
-    """Gauge pressure the textbook regulator gives for the current. [Pa]"""
+    """Gauge pressure the textbook regulator gives for the current, in its span. [Pa]"""
     span: tuple[float, float]
     """Gauge pressures at both ends of the regulator's line. [Pa]"""
     still: Array

@@ -30,7 +30,7 @@ a regulator blows and does not suck. [-]"""
 SPOILT = 0.08
 """The same of its gain. [-]"""
 BIASES = ("N", "kPa")
-FAINT = 1e-4
+FAINT = 1e-5
 """A response below this share of full scale cannot be seen. [-]"""
 
 
@@ -184,7 +184,7 @@ def problem_prior(
     loudest = max(loud.values())
     if effect.stage is Stage.SENSOR:
         loudest = loud.get(effect.signal) or loudest
-    return TYPICAL / loudest if np.isfinite(loudest) and loudest > FAINT * 0.1 else None
+    return TYPICAL / loudest if np.isfinite(loudest) and loudest > FAINT else None
 
 
 def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:

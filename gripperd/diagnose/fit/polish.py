@@ -34,7 +34,8 @@ CONVERGED = 0.3
 LEAST_ON = 0.01
 """Least of a shape whose 0 is another law, of its largest. [-]"""
 SHAPE_STEP = 0.04
-"""Step of a difference quotient, of a shape or of its range. [-]"""
+"""Step of a difference quotient, of a shape; of one that is 0, a fifth of that, of
+its upper bound. [-]"""
 
 
 class Coordinate(NamedTuple):

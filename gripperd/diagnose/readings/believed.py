@@ -8,7 +8,8 @@ from gripperd.diagnose.readings.recording import Contradiction, Recording, Rejec
 def believed(recording: Recording) -> Recording:
     """Leave out the weaker group: a mount that slips or a slack cord only loses force.
 
-    The contradiction stays on record; what was left out is listed as rejected.
+    The contradiction stays on record. All of its runs are left out; listed as rejected
+    is the column that contradicts.
     """
     dropped: list[Rejection] = []
     names: set[str] = set()

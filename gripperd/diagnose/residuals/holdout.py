@@ -223,7 +223,7 @@ def _pace(course: Course) -> float:
 
 
 def _others_most(values: Array) -> Array:
-    """Largest of all others, for each of some values; infinite without others."""
+    """Largest of all others, for each of some values; -inf where there are none."""
     if values.size < 2:
         return np.full_like(values, -np.inf)
     second, first = np.sort(values)[-2:]

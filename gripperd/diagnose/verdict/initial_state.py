@@ -26,7 +26,7 @@ def with_fitted_state(parts: Split, point: Point) -> Point:
 
     One number for each, and the only one that is fitted to them: about the usual sign
     of those that were not left out, and with the prior that they had. Friction is
-    proportional to it, so that the misfit is a parabola.
+    taken to be proportional to it, so that the misfit is a parabola.
 
     Parameters
     ----------
