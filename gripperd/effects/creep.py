@@ -41,17 +41,17 @@ class Creeping(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Creep(InMuscle):
-    r"""Part of the pull, or of what rubber takes from it, comes late.
+    r"""Part of the pull, of the pressure, or of what rubber takes, comes late.
 
     With a series of time constants:
 
-    .. math:: F = F_0 - \sum_{i=0}^{2} a_i (u - u_i), \quad
+    .. math:: F = F_0 - c \sum_{i=0}^{2} a_i (u - u_i), \quad
               \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
-              u = p \left[A(0) + l (A(h) - A(0))\right]
+              u = p \left[A(0) + l (A(h) - A(0))\right], \quad c = 1
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when the bladder creeps under pressure alone. One that passes the pressure on late
-    has ``u = p`` and pulls by A(h) with what is late of it, so that a travel under a
+    when it pulls as at rest length. A bladder that passes the pressure on late has
+    ``u = p`` and pulls at the length of now, ``c = A(h)``, so that a travel under a
     settled pressure calls nothing up. One that relaxes under its own stretch has
     ``u = 5 F_s(h)``, of eq. (5). Once settled it adds nothing. A record that begins
     under a load goes on from a wait under it, which may have been long.
@@ -78,6 +78,7 @@ class Creep(InMuscle):
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
         {Creeping.RUBBER: "rubber_elasticity"}
     )
+    travelling: ClassVar[frozenset[str]] = frozenset({Creeping.PRESSURE})
 
     fast: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
     """Share of the load that is late by the shortest time constant. [-]"""

@@ -94,6 +94,8 @@ class Effect(Protocol):
     """Parameters that a word it may choose leaves without a meaning."""
     rests_on: ClassVar[Mapping[str, str]]
     """Name of the effect that a word it may choose is about."""
+    travelling: ClassVar[frozenset[str]]
+    """Words it may choose that mean something of their own only in a travel."""
 
     @property
     def becomes(self) -> str:

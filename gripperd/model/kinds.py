@@ -22,6 +22,7 @@ class Memoryless:
     basis: ClassVar[str] = ""
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    travelling: ClassVar[frozenset[str]] = frozenset()
 
     @property
     def becomes(self) -> str:

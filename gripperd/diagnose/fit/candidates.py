@@ -73,6 +73,7 @@ def candidates(
     found: list[Candidate] = []
     unseen: dict[str, str] = {}
     present = {effect.name for effect in problem.model.effects}
+    travels = any(course.direction.any() for course in problem.courses)
     for name, kind in library.items():
         if name in present:
             continue
@@ -83,6 +84,7 @@ def candidates(
             Candidate(name, effect)
             for effect in forms(kind)
             if present.issuperset(_bases(effect))
+            and (travels or kind.travelling.isdisjoint(words(effect).values()))
         ]
     found += _wrong_constants(library, problem)
     return tuple(found), unseen

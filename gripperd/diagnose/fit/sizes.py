@@ -32,14 +32,16 @@ def sized(problem: Problem, point: Point) -> Point:
     for effect in point.effects:
         for name, known in parameters(effect).items():
             if known.decides and getattr(effect, name) == known.scale:
-                tried = [point, *_tried(point, effect, name, known.scale)]
+                # Each in the same turn, the last, so that nothing but the size differs.
+                usual = point.with_effect(effect)
+                tried = [usual, *_tried(usual, effect, name, known.scale)]
                 point = min(tried, key=lambda one: _misfit(problem, one, effect))
     return point
 
 
 def _tried(point: Point, effect: Effect, name: str, usual: float) -> Iterator[Point]:
     for size in np.geomspace(SMALLEST * usual, LARGEST * usual, TRIED):
-        yield point.with_effect(replace(effect, **{name: float(size)}))
+        yield point.changed(replace(effect, **{name: float(size)}))
 
 
 def _misfit(problem: Problem, point: Point, effect: Effect) -> float:

@@ -141,6 +141,8 @@ def _pieces(run: Run) -> Iterator[Run]:
     for index, (start, end) in enumerate(pairwise(cuts)):
         if end - start < LEAST:
             continue
-        name = run.name if len(cuts) == 2 else f"{run.name}#{index + 1}"
         columns = {key: value[start:end] for key, value in run.columns.items()}
-        yield Run(name, columns, run.kind)
+        if long.size:
+            yield Run(f"{run.name}#{index + 1}", columns, run.kind, run.name)
+        else:
+            yield run

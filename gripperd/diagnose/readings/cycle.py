@@ -38,7 +38,7 @@ def cycles(sweeps: Sequence[Run]) -> list[Array]:
     done = 0.0
     peak, trough = 0.0, np.inf
     counts: list[Array] = []
-    nexts = [*(sweep.source for sweep in sweeps[1:]), ""]
+    nexts = [*(sweep.cut for sweep in sweeps[1:]), ""]
     for sweep, after, share in zip(sweeps, nexts, _shares(sweeps), strict=True):
         count = np.full(share.size, done)
         for index, value in enumerate(share):
@@ -55,7 +55,7 @@ def cycles(sweeps: Sequence[Run]) -> list[Array]:
                     done, peak, trough = done + 1, value, np.inf
             count[index] = done
         # The rig rests between runs, which ends an inflation; a pause in one does not.
-        if peak and sweep.source != after:
+        if peak and not (sweep.cut and sweep.cut == after):
             done, peak, trough = done + 1, 0.0, np.inf
         counts.append(count)
     return counts

@@ -33,15 +33,12 @@ class Run:
     name: str
     columns: Mapping[str, Array]
     kind: Kind | None = None
+    cut: str = ""
+    """Name of the run that it is a piece of, from a pause or to one; else none."""
 
     def __len__(self) -> int:
         """Number of samples."""
         return self.columns["time"].size
-
-    @property
-    def source(self) -> str:
-        """Name of the run that it is, or is a piece of: cut at a pause, ``name#2``."""
-        return self.name.partition("#")[0]
 
     def has(self, column: str) -> bool:
         """Whether there is any believable value of it."""

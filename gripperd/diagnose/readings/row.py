@@ -36,13 +36,14 @@ def alike(one: Run, other: Run) -> bool:
     if abs(n - m) > 0.1 * max(n, m):
         return False
     command = "current" if one.has("current") or other.has("current") else "pressure"
-    asked = [n for n in (command, "contraction") if one.has(n) or other.has(n)]
-    if not asked or not all(one.has(n) and other.has(n) for n in asked):
+    asked = [c for c in (command, "contraction") if one.has(c) or other.has(c)]
+    if not asked or not all(one.has(c) and other.has(c) for c in asked):
         return False
     for name in asked:
         a, b = one.columns[name], other.columns[name]
         k = min(n, m)
-        reach = max(np.nanmax(np.abs(a), initial=0.0), REACH.get(name, 0.0))
+        tops = [np.nanmax(np.abs(column)) for column in (a, b)]
+        reach = max(*tops, REACH.get(name, 0.0))
         apart = np.abs(a[:k] - b[:k])
         known = apart[~np.isnan(apart)]
         gap = np.mean(known) if known.size else inf

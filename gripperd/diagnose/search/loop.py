@@ -46,7 +46,7 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
     rival
         The explanation that was fitted.
     """
-    point, known = rival.fit.point, sum(rival.fit.misfits.values())
+    point = rival.fit.point
     for effect in point.effects:
         bare = effect.forgetful
         if bare is effect:
@@ -54,6 +54,6 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
         # The constants may make up for a loop that is in nothing but the fit.
         given = replace(problem, model=problem.model.with_effect(bare))
         refit = polished(given, point.without(effect.name))
-        if sum(refit.misfits.values()) < known + 2 * SEEN:
+        if refit.cost < rival.fit.cost + 2 * SEEN:
             return False
     return True

@@ -199,6 +199,16 @@ def test_rubber_that_creeps_is_no_candidate_without_rubber(blank: Problem) -> No
         assert {one.kind[1] for one in listed if one.name == "creep"} == known
 
 
+def test_a_pressure_that_creeps_is_no_candidate_where_nothing_travels(
+    blank: Problem,
+) -> None:
+    """It is told from a pull that creeps by nothing but a travel."""
+    still = [course for course in blank.courses if not course.direction.any()]
+    held = replace(blank, courses=tuple(still))
+    listed, _ = candidates({"creep": Creep}, held, MEASURED)
+    assert {one.kind[1] for one in listed if one.name == "creep"} == {"pull", "rubber"}
+
+
 def test_what_acts_on_a_signal_that_nothing_shows_says_so(blank: Problem) -> None:
     courses = tuple(
         replace(one, measured={k: v for k, v in one.measured.items() if k != "force"})

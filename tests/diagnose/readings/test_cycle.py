@@ -91,6 +91,14 @@ def test_without_pressure_and_command_no_inflation_is_known() -> None:
     assert not second.cycle.any()
 
 
+def test_runs_that_end_under_pressure_end_an_inflation_however_they_are_called() -> (
+    None
+):
+    up = np.linspace(0.0, 400e3, 100)
+    _, second = _cut(run("A#1", pressure=up), _after(run("A#2", pressure=up), 100.0))
+    assert second.cycle[0] == 1
+
+
 def test_a_pause_of_the_log_ends_no_inflation() -> None:
     time = np.concatenate([0.1 * np.arange(100), 60.0 + 0.1 * np.arange(100)])
     held = np.concatenate([np.linspace(0.0, 400e3, 100), np.full(100, 400e3)])
