@@ -91,12 +91,12 @@ def test_without_pressure_and_command_no_inflation_is_known() -> None:
     assert not second.cycle.any()
 
 
-def test_runs_that_end_under_pressure_end_an_inflation_however_they_are_called() -> (
-    None
-):
-    up = np.linspace(0.0, 400e3, 100)
-    _, second = _cut(run("A#1", pressure=up), _after(run("A#2", pressure=up), 100.0))
-    assert second.cycle[0] == 1
+def test_an_inflation_ends_with_its_run_whatever_the_run_is_called() -> None:
+    held = np.full(100, 400e3)
+    first, second = _cut(
+        run("A#1", pressure=held), _after(run("A#2", pressure=held), 100.0)
+    )
+    assert (first.cycle[-1], second.cycle[0]) == (0, 1)
 
 
 def test_a_pause_of_the_log_ends_no_inflation() -> None:
