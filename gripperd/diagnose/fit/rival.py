@@ -64,18 +64,15 @@ def _switched_off(point: Point) -> Point:
 
     Its effects act in the same order, so that nothing else differs.
     """
-    off = [
-        {
+    for effect in point.effects:
+        off = {
             name: 0.0
             for name, known in in_use(effect, effect.idle).items()
             if known.switches and 0 < getattr(effect, name) <= LEAST_ON * known.high
         }
-        for effect in point.effects
-    ]
-    if not any(off):
-        return point
-    plain = zip(point.effects, off, strict=True)
-    return replace(point, effects=tuple(replace(one, **to) for one, to in plain))
+        if off:
+            point = point.changed(replace(effect, **off))
+    return point
 
 
 def larger(

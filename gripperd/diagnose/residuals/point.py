@@ -55,9 +55,8 @@ class Point:
 
     def changed(self, effect: Effect) -> "Point":
         """Change one that acts: it acts in its turn as before, on what it acted on."""
-        at = [one.name for one in self.effects].index(effect.name)
-        effects = (*self.effects[:at], effect, *self.effects[at + 1 :])
-        return replace(self, effects=effects)
+        same = (effect if one.name == effect.name else one for one in self.effects)
+        return replace(self, effects=tuple(same))
 
     def without(self, name: str) -> "Point":
         """Take an effect out."""
