@@ -87,7 +87,7 @@ def test_whichever_comes_first_they_are_alike_or_not() -> None:
     untold = run(pressure=triangle(), contraction=still)
     assert not alike(told, untold)
     assert not alike(untold, told)
-    # Just within 3 % of the larger, of which the mean is apart by half as much.
+    # Apart by 3.05 % of the smaller one's top on average, 2.87 % of the larger one's.
     more = run(pressure=1.061 * triangle(low=0.0), contraction=still)
     less = run(pressure=triangle(low=0.0), contraction=still)
     assert alike(more, less)
