@@ -22,6 +22,28 @@ LINKS = (
 """What must be measured together to compare one step of the chain."""
 FEWEST = 20
 """Rows; fewer do not tell an effect from noise."""
+PERCENT = 0.25
+"""Share of the rows with a contraction above 1, from which no sensor is broken: it is
+told in percent, though rest length is held in up to three sweeps of four. [-]"""
+
+
+def require_ratio(source: str, runs: Sequence[Run]) -> None:
+    """Refuse a contraction in percent, before what is left of it looks like a ratio.
+
+    Raises
+    ------
+    InputError
+        Telling in how many rows it is above 1.
+    """
+    told = [run.columns["contraction"] for run in runs if run.has("contraction")]
+    above = sum(int((values > 1).sum()) for values in told)
+    rows = sum(len(run) for run in runs)
+    if above > PERCENT * rows:
+        detail = (
+            f"{source}: column contraction is above 1 in {above} of {rows} rows; it is"
+            " a ratio, counted from the rest length: 0.1 for 10 %"
+        )
+        raise InputError(detail)
 
 
 def require_enough(

@@ -81,3 +81,19 @@ def test_what_was_left_out_is_said_when_too_little_remains(
     columns["current_mA"] = [0.0107] * 20
     message = complaint(write(columns))
     assert message.endswith("(left out: 20 times current_mA under 3.6 mA)")
+
+
+def test_a_contraction_in_percent_is_told(write: Write, complaint: Complaint) -> None:
+    columns = good(40)
+    columns["contraction"][29:] = [10.0] * 11
+    assert complaint(write(columns)) == (
+        "rig.csv: column contraction is above 1 in 11 of 40 rows; it is a ratio,"
+        " counted from the rest length: 0.1 for 10 %"
+    )
+
+
+def test_a_broken_sensor_of_contraction_is_left_out(write: Write) -> None:
+    columns = good(40)
+    columns["contraction"][:10] = [10.0] * 10
+    rejected = read_recording(write(columns)).rejected
+    assert [(one.column, one.count) for one in rejected] == [("contraction", 10)]
