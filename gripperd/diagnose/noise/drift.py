@@ -102,7 +102,7 @@ def repeat(time: Array, first: Array, second: Array, load: Array) -> Quiet:
     return Quiet(time, second - first, regressors, 2**0.5)
 
 
-def thinned(quiet: Iterable[Quiet], most: int = 3000) -> list[Quiet]:
+def shortened(quiet: Iterable[Quiet], most: int = 3000) -> list[Quiet]:
     """Keep the first samples of each stretch: a likelihood takes time."""
     return [
         Quiet(q.time[:most], q.residual[:most], q.regressors[:most], q.loudness)

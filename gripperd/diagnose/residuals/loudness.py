@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from gripperd.diagnose.noise.drift import thinned, with_drift
+from gripperd.diagnose.noise.drift import shortened, with_drift
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
@@ -66,7 +66,7 @@ def noises_of(
         quiet = [
             *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
         ]  # fmt: skip
-        quiet = thinned(quiet or repeated(*asked, first=True))
+        quiet = shortened(quiet or repeated(*asked, first=True))
         found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
     return _handed_on(found, problem)
 

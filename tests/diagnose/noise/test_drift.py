@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.noise.drift import Quiet, hold, repeat, thinned, with_drift
+from gripperd.diagnose.noise.drift import Quiet, hold, repeat, shortened, with_drift
 from gripperd.diagnose.noise.drift import _likelihood as restricted
 from gripperd.diagnose.noise.model import Noise
 from gripperd.model.track import Array
@@ -103,6 +103,6 @@ def test_a_constant_load_is_no_second_constant() -> None:
 
 
 def test_long_stretches_are_cut() -> None:
-    (short,) = thinned([hold(TIME, TIME, creeps=True)], most=100)
+    (short,) = shortened([hold(TIME, TIME, creeps=True)], most=100)
     assert (short.time.size, short.residual.size) == (100, 100)
     assert short.regressors.shape == (100, 3)
