@@ -90,9 +90,11 @@ def main() -> NoReturn:
 
 
 def _complain(error: GripperdError, status: int) -> NoReturn:
-    console = Console(stderr=True, soft_wrap=True, highlight=False)
+    console = Console(
+        stderr=True, markup=False, emoji=False, soft_wrap=True, highlight=False
+    )
     for line in str(error).splitlines():
-        console.print("error:", line, markup=False)
+        console.print("error:", line)
     for hint in getattr(error, "hints", ()):
-        console.print("  hint:", hint, markup=False)
+        console.print("  hint:", hint)
     sys.exit(status)

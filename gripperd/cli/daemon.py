@@ -50,7 +50,12 @@ def run(config: ConfigFile = None) -> None:
     # A damaged version is told before anything is started.
     with_active_models(settings)
     log_to_stderr()
-    raise typer.Exit(run_daemon(settings, Console(highlight=False, soft_wrap=True)))
+    raise typer.Exit(
+        run_daemon(
+            settings,
+            Console(markup=False, emoji=False, highlight=False, soft_wrap=True),
+        )
+    )
 
 
 @app.command()

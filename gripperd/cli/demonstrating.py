@@ -35,11 +35,11 @@ def demo_discrepancy(
         story = demonstrate(
             out, effect, seed, program=__version__, now=datetime.now(UTC), progress=tell
         )
-    console = Console(soft_wrap=True, highlight=False)
+    console = Console(markup=False, emoji=False, soft_wrap=True, highlight=False)
     console.print(f"hidden   A rig has {effect}, and its model does not know.")
     for word, sentence in _told(story):
-        console.print(f"[bold]{word:<8}[/bold]", end=" ")
-        console.print(sentence, markup=False)
+        console.print(f"{word:<8}", end=" ", style="bold")
+        console.print(sentence)
     console.print(f"\n{_again(out)}\nreport: {story.report.resolve().as_uri()}")
 
 

@@ -52,11 +52,9 @@ def diagnose(  # noqa: PLR0913  (its options)
     written: list[str] = []
     with interruptible(lambda: f"wrote {', '.join(written) or 'nothing'}"):
         asked = _asked(model, config, gripper)
-        read = {
-            "the recording": recording,
-            "the side file of the recording": recording.with_suffix(".yaml"),
-            "the model": Path(asked.source),
-        }
+        read = {"the recording": recording, "the model": Path(asked.source)}
+        if recording.name:
+            read["the side file of the recording"] = recording.with_suffix(".yaml")
         if config is not None:
             read["the configuration"] = config
         check_outputs(_outputs(as_json, report), read)

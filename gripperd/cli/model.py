@@ -168,7 +168,7 @@ def _shown(value: object) -> str:
 
 
 def _print(table: Table) -> None:
-    console = Console()
+    console = Console(markup=False, emoji=False)
     if not console.is_terminal:
         console.width = PIPE_WIDTH
     console.print(table)

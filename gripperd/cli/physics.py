@@ -111,7 +111,7 @@ def reproduce(
     table = Table("claim of the paper", "verdict", "here", title=None)
     for claim in report.claims:
         table.add_row(claim.statement, claim.verdict, claim.finding)
-    Console().print(table)
+    Console(markup=False, emoji=False).print(table)
     typer.echo(f"wrote {(folder / 'index.html').resolve().as_uri()}")
 
 

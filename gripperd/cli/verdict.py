@@ -40,7 +40,7 @@ PLACES = 6
 
 def show(diagnosis: Diagnosis) -> None:
     """Print the verdict and what it rests on."""
-    console = Console(highlight=False)
+    console = Console(markup=False, emoji=False, highlight=False)
     if not console.is_terminal:
         console.width = PIPE_WIDTH
     colour = COLOURS[diagnosis.verdict]

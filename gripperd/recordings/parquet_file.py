@@ -68,11 +68,11 @@ class ParquetFile:
             if name in words and pyarrow.types.is_nested(kind):
                 detail = f"{self.source}: column {name} holds {kind}; text is expected"
                 raise InputError(detail)
-        return Table(
-            self.source,
-            *columns_of(table, words, numbers),
-            lambda row: f"{self.source}: row {row + 1}",
-        )
+        try:
+            columns = columns_of(table, words, numbers)
+        except pa.ArrowInvalid as broken:
+            raise _damaged(self.source, broken) from None
+        return Table(self.source, *columns, lambda row: f"{self.source}: row {row + 1}")
 
 
 def _numeric(kind: pa.DataType) -> bool:

@@ -9,6 +9,7 @@ from gripperd.config.complaint import did_you_mean
 from gripperd.config.document import Document, read_document
 from gripperd.config.wording import shown
 from gripperd.diagnose.readings.columns import COLUMNS
+from gripperd.diagnose.readings.limits import HUGE
 from gripperd.diagnose.readings.recording import Kind, Run
 from gripperd.errors import ConfigError, InputError
 from gripperd.recordings.header import IDENTITIES
@@ -75,6 +76,9 @@ def _noise(document: Document, entries: Mapping[str, object]) -> Mapping[str, fl
             raise ConfigError(document.complaint(("noise", name), detail))
         if not _is_number(value) or value <= 0.0:
             detail = f"{shown(value)} is not above 0 {column.unit}".rstrip()
+            raise ConfigError(document.complaint(("noise", name), detail))
+        if value * column.scale > HUGE:
+            detail = f"{shown(value)} is above {column.shown(HUGE)}"
             raise ConfigError(document.complaint(("noise", name), detail))
         noise[column.quantity] = value * column.scale
     return noise

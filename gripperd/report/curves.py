@@ -57,7 +57,7 @@ def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:
             upper.plot(way, expected, lw=1.6, label=state.value, **look)
             lower.plot(way, broken(one.residual(state), parts), lw=1.2, **look)
         lower.axhline(0, color=INK, lw=0.8)
-        upper.set_title(elided(one.run, TITLE))
+        upper.set_title(elided(one.run, TITLE), parse_math=False)
         lower.set_xlabel(label)
     unit = column.unit or "-"
     grid[0, 0].set_ylabel(f"{column.quantity} [{unit}]")

@@ -229,6 +229,7 @@ def _mark_runs(axes: Axes, found: tuple[Trace, ...], starts: Array) -> None:
         axes.text(
             starts[index], 1.02, elided(found[index].run, LETTERS), transform=top,
             color=MUTED, fontsize=8, rotation=35, ha="left", va="bottom",
+            parse_math=False,
         )  # fmt: skip
     shown = spaced(starts[:-1], CLOCK * float(starts[-1]))
     times = [f"{found[index].start:.0f}" for index in shown]

@@ -202,7 +202,7 @@ LBF = 0.2248
         (lambda _text: "", "is empty"),
         (scaled(LBF), "is it in lbf"),
         (scaled(0.01, column="pressure_kPa"), "column pressure_kPa is 0.0"),
-        (scaled(100.0, column="contraction"), "is it a ratio"),
+        (scaled(100.0, column="contraction"), "it is a ratio"),
         (lambda text: text.replace("force_N", "force_lbf"), "expected in N"),
     ],
     ids=[
@@ -286,11 +286,19 @@ def test_what_is_no_recording_is_one_clear_message(done: Done) -> None:
     os.truncate(sparse, 2 * 2**30)
     for path, complaint in (
         (folder, "is not a file"),
+        (Path(), "is not a file"),
         (binary, "is neither a CSV file"),
         (sparse, "2048 MB are more than"),
         (done.folder / "absent.csv", "there is no such file"),
     ):
         refused(str(path), done.at("model.yaml"), str(path), complaint)
+
+
+def test_a_complaint_has_the_line_it_is_about(done: Done) -> None:
+    broken = done.folder / "broken.csv"
+    rows = "".join(f"a,{row}\n" for row in range(98))
+    broken.write_text(f"run,t_s\n{rows}a,x\n")
+    refused(str(broken), done.at("model.yaml"), f'{broken}:100: t_s: "x"')
 
 
 @pytest.mark.parametrize(

@@ -62,6 +62,17 @@ def test_what_was_left_out_is_a_line_for_each_reason(
     ) in text
 
 
+def test_names_of_runs_are_told_as_they_are(
+    creep: Diagnosis, capsys: pytest.CaptureFixture[str]
+) -> None:
+    where = tuple(
+        replace(one, run=name)
+        for one, name in zip(creep.where, ("a[/x]", "b [red]", "c :100:"), strict=False)
+    )
+    text = told(replace(creep, where=where), capsys)
+    assert all(f" {one.run} " in text for one in where)
+
+
 def test_what_the_model_lacks_is_told_apart_from_what_was_not_recorded(
     creep: Diagnosis, capsys: pytest.CaptureFixture[str]
 ) -> None:

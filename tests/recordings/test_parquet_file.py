@@ -40,6 +40,15 @@ def test_narrow_types_and_nulls_are_read(tmp_path: Path) -> None:
     assert run.columns["pressure"][1] == 101e3
 
 
+def test_a_name_that_is_no_text_is_refused(
+    tmp_path: Path, complaint: Complaint
+) -> None:
+    path = _written(tmp_path, pa.table(good() | {"run": [b"\xff\xfeA"] * 30}))
+    assert complaint(path) == (
+        "rig.parquet: is a damaged Parquet file: Invalid UTF8 payload"
+    )
+
+
 @pytest.mark.parametrize(
     ("column", "values", "kind"),
     [

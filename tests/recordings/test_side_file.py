@@ -33,6 +33,7 @@ def test_a_key_nobody_knows_is_said_not_to_be_read(write: Write) -> None:
         ("noise: {force: 5}", 'no such column; did you mean "force_N"?'),
         ("noise:\n  force_N: -5", "rig.yaml:2: noise.force_N: -5 is not above 0 N"),
         ("noise: {force_N: much}", '"much" is not above 0 N'),
+        ("noise: {force_N: 1.0e+300}", "1e+300 is above 1e+12 N"),
         ("noise: 5", "rig.yaml:1: noise: 5 is not a mapping"),
         ("runs: {h0.1: {kind: step}}", 'no such run; did you mean "h0.10"?'),
         ("runs: {h0.10: {kind: isometrc}}", 'did you mean "isometric"?'),

@@ -52,6 +52,16 @@ def test_a_file_may_begin_at_any_time(
     assert [one.start for one in told] == pytest.approx([one.start for one in found])
 
 
+def test_names_of_runs_are_no_formulas(found: tuple[Trace, ...]) -> None:
+    named = tuple(replace(one, run="step$p_$") for one in found)
+    for picture in (
+        over_time(named, BY_QUANTITY["force"], 3.0),
+        held_out(named, BY_QUANTITY["force"]),
+    ):
+        assert picture is not None
+        picture.drawing.draw_without_rendering()
+
+
 def drawn(axes: Axes) -> list[tuple[Array, Array]]:
     """Lines that follow samples, not those across the picture."""
     lines = [np.asarray(line.get_xydata(), float) for line in axes.get_lines()]
