@@ -80,7 +80,7 @@ def improvement(model: ModelFile, diagnosis: Diagnosis, program: str) -> Improve
         regulator=found.regulator and _tidy(found.regulator, _keys("valve")),
         linkage=found.linkage and _tidy(found.linkage, _keys("gripper")),
         effects=tuple(each for each in effects if not acts_in_muscle(each)),
-        tolerances={**model.tolerances, **dict(_tolerances(diagnosis))},
+        tolerances=_known(model.tolerances, dict(_tolerances(diagnosis))),
         lineage=None,
     )
     return Improvement(better, origin(diagnosis, gap, program))
@@ -159,9 +159,15 @@ def _shrinks(gap: Judged) -> bool:
 
 
 def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
-    """One sigma of what was fitted, where one sigma to either side is possible."""
+    """One sigma of what was fitted; of constants no more than is possible either way.
+
+    Of effects only where one sigma to either side is possible.
+    """
     for one in fitted_constants(diagnosis):
-        yield one.constant.path, one.key.tidy(one.std * one.key.factor)
+        value, (low, high) = one.fit * one.key.factor, one.constant.limits
+        possible = min(one.std * one.key.factor, value - low, high - value)
+        # A value at its limit cannot be off both ways: it is told without.
+        yield one.constant.path, one.key.tidy(possible)
     for entry in diagnosis.named:
         known = parameters(entry.effect) if entry.effect else {}
         keys = keys_of(entry)
@@ -169,6 +175,13 @@ def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
             size = entry.parameters[name]
             if size.std > 0 and _is_inside(size, known[name].low, known[name].high):
                 yield f"effects.{entry.name}.{name}", keys[name].tidy(size.std)
+
+
+def _known(
+    before: Mapping[str, float], fitted: Mapping[str, float]
+) -> dict[str, float]:
+    """Tolerances after a fit: a number at its limit has none."""
+    return {path: size for path, size in {**before, **fitted}.items() if size > 0}
 
 
 def _is_inside(one: Estimate, low: float, high: float) -> bool:

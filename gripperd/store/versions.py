@@ -12,7 +12,7 @@ from datetime import datetime
 from pathlib import Path
 
 from gripperd.config import Complaint, ModelFile, load_model
-from gripperd.config.complaint import did_you_mean, gathering
+from gripperd.config.complaint import did_you_mean, dotted, gathering
 from gripperd.config.durable import create_file
 from gripperd.config.lineage import Lineage, Provenance
 from gripperd.config.model_text import model_text
@@ -96,10 +96,9 @@ class Versions:
         ------
         NotFound
             There is no such parent.
-        ConfigError
-            The model is one that could not be read again; nothing was kept.
         Refused
-            The disk is full or cannot be written; nothing was kept.
+            The model is one that could not be read again, or the disk is full or cannot
+            be written; nothing was kept.
         """
         self.get(parent)
         with self._changing():
@@ -112,7 +111,7 @@ class Versions:
             )
             name = self._name(number)
             text = model_text(replace(model, name=name, lineage=lineage))
-            create_file(self._file(number), sealed(text), check=load_model)
+            create_file(self._file(number), sealed(text), check=_readable)
         return self.get(number)
 
     def same(
@@ -135,10 +134,14 @@ class Versions:
         """Every version; one broken file costs one version."""
         complaints: list[str] = []
         versions: list[Version] = []
-        for number in (0, *sorted(self._numbers())):
+        numbers = (0, *sorted(self._numbers()))
+        for number in numbers:
             with gathering(complaints):
                 versions.append(self.get(number))
-        return Shelf(tuple(versions), self.active, tuple(complaints))
+        active = self.active
+        if active not in numbers:
+            complaints.append(self._gone(active))
+        return Shelf(tuple(versions), active, tuple(complaints))
 
     def get(self, which: int | str = ACTIVE) -> Version:
         """One version, by number, name or :data:`ACTIVE`.
@@ -148,7 +151,7 @@ class Versions:
         NotFound
             There is none.
         ConfigError
-            Its file is damaged.
+            Its file is damaged, or the active one is there no more.
         """
         number = self._number(which)
         if number == 0:
@@ -178,6 +181,8 @@ class Versions:
     def rollback(self) -> Version:
         """Make the version active that was so before; again, the one before that.
 
+        Those whose files are gone are passed over.
+
         Raises
         ------
         Refused
@@ -185,7 +190,7 @@ class Versions:
         ConfigError
             The file of the one before is damaged.
         """
-        return self._point(Pointer.back)
+        return self._point(self._back)
 
     def before(self) -> Version:
         """Version that :meth:`rollback` would go back to.
@@ -197,7 +202,14 @@ class Versions:
         ConfigError
             Its file, or the one that says which is active, is damaged.
         """
-        return self.get(self._read_pointer().back().active)
+        return self.get(self._back(self._read_pointer()).active)
+
+    def _back(self, pointer: Pointer) -> Pointer:
+        there = {0, *self._numbers()}
+        pointer = pointer.back()
+        while pointer.active not in there:
+            pointer = pointer.back()
+        return pointer
 
     def _point(self, move: Callable[[Pointer], Pointer]) -> Version:
         with self._changing():
@@ -208,10 +220,13 @@ class Versions:
             return version
 
     def _number(self, which: int | str) -> int:
+        numbers = (0, *self._numbers())
         if which == ACTIVE:
-            which = self.active
+            if (active := self.active) not in numbers:
+                raise ConfigError(self._gone(active))
+            return active
         known: dict[int | str, int] = {}
-        for number in (0, *self._numbers()):
+        for number in numbers:
             known |= {number: number, str(number): number, self._name(number): number}
         if which not in known:
             names = {self._name(each) for each in known.values()}
@@ -219,6 +234,10 @@ class Versions:
             message = f"{self._base.name} has no version {which!r}; {hint}"
             raise NotFound(message, key="version")
         return known[which]
+
+    def _gone(self, number: int) -> Complaint:
+        detail = "is not there, and is the active version"
+        return Complaint(detail, source=str(self._file(number)))
 
     def _elsewhere(self, which: int | str) -> str:
         """Say that it is a version of another model; empty when it is none."""
@@ -253,3 +272,15 @@ class Versions:
         except OSError as error:
             message = f"{self._folder}: nothing was changed: {error.strerror}"
             raise Refused(message, code="storage-failed") from error
+
+
+def _readable(draft: Path) -> None:
+    try:
+        load_model(draft)
+    except ConfigError as unusable:
+        said = "; ".join(
+            f"{dotted(one.path)}: {one.detail}" if isinstance(one, Complaint) else one
+            for one in unusable.complaints
+        )
+        message = f"nothing was kept, for nobody could read it again: {said}"
+        raise Refused(message, code="model-unusable") from unusable

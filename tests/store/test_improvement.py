@@ -104,6 +104,41 @@ def test_no_tolerance_reaches_past_a_bound(creep: Found) -> None:
     assert "effects.creep.time" not in better.model.tolerances
 
 
+@pytest.mark.parametrize(("value", "tolerance"), [(0.0, None), (0.001, 0.001)])
+def test_a_tolerance_ends_where_no_constant_can_be(
+    creep: Found, tmp_path: Path, value: float, tolerance: float | None
+) -> None:
+    model, diagnosis = creep
+    (index,) = (
+        index
+        for index, one in enumerate(diagnosis.found.problem.constants)
+        if one.path == "muscle.friction_coefficient"
+    )
+    version = kept((model, rubbing(diagnosis, index, value, 0.003)), tmp_path)
+    muscle = version.model.static.muscle
+    assert muscle.friction_coefficient == pytest.approx(value)
+    there = version.model.tolerances.get("muscle.friction_coefficient")
+    assert there == (tolerance and pytest.approx(tolerance))
+
+
+def rubbing(diagnosis: Diagnosis, index: int, value: float, std: float) -> Diagnosis:
+    """Let the coefficient of friction have been fitted so."""
+    found, contest = diagnosis.found, diagnosis.contest
+    listed = list(found.problem.constants)
+    listed[index] = replace(listed[index], nominal=0.0, sigma=1.0)
+    fit = contest.best.fit
+    shifts, covariance = fit.point.shifts.copy(), fit.covariance.copy()
+    shifts[index], covariance[index, index] = value, std**2
+    fitted = replace(
+        fit, point=replace(fit.point, shifts=shifts), covariance=covariance
+    )
+    return replace(
+        diagnosis,
+        found=replace(found, problem=replace(found.problem, constants=tuple(listed))),
+        contest=replace(contest, best=replace(contest.best, fit=fitted)),
+    )
+
+
 @pytest.mark.parametrize(
     "verdict", [Verdict.AMBIGUOUS, Verdict.UNEXPLAINED, Verdict.NONE]
 )

@@ -116,8 +116,12 @@ def test_a_version_of_another_model_is_told_with_its_file(
 def test_a_model_that_could_not_be_read_again_is_not_kept(
     versions: Versions, provenance: Provenance, tmp_path: Path
 ) -> None:
-    with pytest.raises(ConfigError, match=r"slow: 0\.6 is outside -0\.15 to 0\.15"):
+    with pytest.raises(Refused) as refused:
         add(versions, provenance, slow=0.6)
+    assert str(refused.value) == (
+        "nothing was kept, for nobody could read it again: effects[2].slow: 0.6 is"
+        " outside -0.15 to 0.15, the physical bounds of creep"
+    )
     assert list(tmp_path.rglob("*.yaml")) == []
     assert list(tmp_path.rglob("*.draft")) == []
 
@@ -154,6 +158,23 @@ def test_a_damaged_version_can_be_rolled_back(
         versions.get()
     assert versions.rollback().number == 0
     assert versions.get().number == 0
+
+
+def test_a_version_that_is_gone_can_be_rolled_back(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    for number in (1, 2, 3):
+        add(versions, provenance)
+        versions.activate(number)
+    for number in (2, 3):
+        (tmp_path / f"models/reference/{number}.yaml").unlink()
+    said = f"{tmp_path}/models/reference/3.yaml: is not there, and is the active"
+    with pytest.raises(ConfigError, match=said):
+        versions.get()
+    assert versions.all().complaints == (f"{said} version",)
+    assert versions.before().number == 1
+    assert versions.rollback().number == 1
+    assert versions.get().number == 1
 
 
 def test_a_version_put_in_the_place_of_another_is_refused(

@@ -91,8 +91,13 @@ class Constant:
 
     def value(self, shift: float) -> float:
         """As it is when off by so many sigma, within what could be made at all."""
-        low, high = _MADE_AT_ALL.get(self.path, (-inf, inf))
+        low, high = self.limits
         return min(max(self.nominal + shift * self.sigma, low), high)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Between which it could be made at all."""
+        return _MADE_AT_ALL.get(self.path, (-inf, inf))
 
     @property
     def course(self) -> int | None:
@@ -106,6 +111,10 @@ _MADE_AT_ALL: Mapping[str, tuple[float, float]] = {
 } | {
     "muscle.braid_angle": (0.09, 0.95),
     "muscle.friction_coefficient": (0.0, 2.0),
+    "gripper.open_width": (1e-6, inf),
+    "gripper.ratio": (0.01, 100.0),
+    "gripper.spring_preload": (0.0, inf),
+    "gripper.spring_rate": (0.0, inf),
     "response.valve": (0.0, inf),
 }
 _JAWS = frozenset({Signal.OPENING, Signal.GRIP})
