@@ -179,7 +179,7 @@ def _judged(
     points = (start, base, nearest)
     inside, outside = apart(parts)
     judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
-    entries = named(found, best, judged)
+    entries = named(found, best, _one_by_one(parts, inside, best, nearest))
     main = main_signal(best, judged)
     # That tolerances are too tight is one finding, however many constants it moves.
     effects = 1 if nearest.looser else len(entries)
@@ -218,6 +218,20 @@ def _judged(
         found=found,
         contest=best,
     )
+
+
+def _one_by_one(
+    parts: Split, inside: Problem, best: Contest, nearest: Point
+) -> list[Mapping[Signal, Gap]]:
+    """Give the gap that each candidate closes beside all others."""
+    others = (
+        with_fitted_state(parts, place.without.fit.point) for place in best.places
+    )
+    rng = np.random.default_rng(0)
+    return [
+        gaps(inside, (other, other, nearest), parts.train.noises, rng)
+        for other in others
+    ]
 
 
 def _without_verdict(

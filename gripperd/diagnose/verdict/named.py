@@ -1,6 +1,6 @@
 """What was found, told so that a person can act on it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf
 
@@ -53,7 +53,8 @@ class Named:
     delta_bic: float
     """BIC with it less that without it; negative if it is worth its numbers. [-]"""
     heldout_gain: float
-    """Share of the mean square above the noise that it closes on held-out runs. [-]"""
+    """Share of the mean square above the noise that the others leave on held-out runs,
+    and it closes. [-]"""
 
     @property
     def chosen(self) -> dict[str, str]:
@@ -62,7 +63,7 @@ class Named:
 
 
 def named(
-    found: Found, best: Contest, judged: Mapping[Signal, Gap]
+    found: Found, best: Contest, judged: Sequence[Mapping[Signal, Gap]]
 ) -> tuple[Named, ...]:
     """Describe everything the best explanation adds.
 
@@ -71,11 +72,12 @@ def named(
     found, best
         The search and its outcome.
     judged
-        Gaps on what was left out.
+        Gaps on what was left out: for each candidate, between the best without it and
+        the best.
     """
     rival = best.best
     return tuple(
-        _described(found, best, index, candidate, judged)
+        _described(found, best, index, candidate, judged[index])
         for index, candidate in enumerate(rival.candidates)
     )
 

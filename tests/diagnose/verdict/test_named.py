@@ -5,10 +5,15 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
+from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.gap import by_signal
+from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.diagnose.verdict.named import Named, named
+from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
 from tests.diagnose.small import MODEL, recording
+from tests.diagnose.small import threshold as hidden
 
 
 @pytest.fixture
@@ -69,7 +74,7 @@ def _chance(told: Diagnosis, least: float, most: float) -> float:
     """Chance when noise gains from least to most above what was gained. [nat]"""
     gain = told.contest.best.evidence - told.contest.places[0].without.evidence
     nulls = np.linspace(gain + least, gain + most, 400)
-    (entry,) = named(replace(told.found, nulls=nulls), told.contest, told.gaps)
+    (entry,) = named(replace(told.found, nulls=nulls), told.contest, [told.gaps])
     return entry.p_value
 
 
@@ -93,8 +98,29 @@ def test_it_is_worth_its_numbers_by_bic(told: Diagnosis, threshold: Named) -> No
 def test_it_closes_the_gap_on_what_was_left_out(
     told: Diagnosis, threshold: Named
 ) -> None:
-    assert threshold.heldout_gain == told.gaps[Signal.FORCE].closed
+    closed = told.gaps[Signal.FORCE].closed
+    assert threshold.heldout_gain == pytest.approx(closed, rel=1e-4)
     assert threshold.heldout_gain > 0.5
+
+
+def test_of_two_each_is_told_what_it_closes_beside_the_other() -> None:
+    model = replace(MODEL, muscle=replace(MODEL.muscle, diameter=0.0215))
+    library = {"threshold_pressure": ThresholdPressure}
+    told = diagnose(recording(hidden(25.0)), model, {"muscle.diameter": 5e-5}, library)
+    assert {one.name for one in told.named} == {*library, "parameter:muscle.diameter"}
+    gap = told.gaps[Signal.FORCE]
+
+    def excess(point: Point) -> float:
+        """Mean square of the force above the noise. [N²]."""
+        fitted = with_fitted_state(told.split, point)
+        force = by_signal(told.split.test, fitted)[Signal.FORCE]
+        return float(np.mean(force**2)) - gap.noise_floor**2
+
+    left = excess(told.explained)
+    for entry, place in zip(told.named, told.contest.places, strict=True):
+        closed = 1 - left / excess(place.without.fit.point)
+        assert entry.heldout_gain == pytest.approx(closed, rel=1e-4)
+    assert told.named[0].heldout_gain != pytest.approx(told.named[1].heldout_gain)
 
 
 def test_a_wrong_constant_is_named_by_its_path(fat: Named) -> None:
@@ -119,4 +145,4 @@ def test_a_number_knows_beyond_what_nothing_was_sought(
 
 
 def test_nothing_found_is_nothing_named(told: Diagnosis) -> None:
-    assert named(told.found, Contest(told.found.null), told.gaps) == ()
+    assert named(told.found, Contest(told.found.null), []) == ()
