@@ -17,10 +17,13 @@ Sigmas: TypeAlias = dict[KeyPath, float]
 
 
 class Known(Section):
-    """A number and its one sigma, in the unit of the key they stand under."""
+    """A number and its one sigma, in the unit of the key they stand under.
+
+    A sigma of 0 says that the number is exact, as files do that round theirs.
+    """
 
     value: float
-    tolerance: float = Field(gt=0)
+    tolerance: float = Field(ge=0)
 
 
 def without_tolerances(document: Document) -> tuple[Document, Sigmas]:

@@ -76,6 +76,13 @@ def test_any_number_may_carry_a_tolerance(write: Write) -> None:
     }
 
 
+def test_a_number_may_be_exact(write: Write) -> None:
+    given = "{value: 10, tolerance: 0}"
+    model = load(write("m.yaml", text(diameter=given)))
+    assert model.static.muscle.diameter == pytest.approx(0.01)
+    assert model.tolerances == {"muscle.diameter": 0.0}
+
+
 def test_a_file_without_tolerances_has_none(write: Write) -> None:
     assert load(write("m.yaml", text())).tolerances == {}
 
@@ -83,8 +90,7 @@ def test_a_file_without_tolerances_has_none(write: Write) -> None:
 @pytest.mark.parametrize(
     ("given", "complaint"),
     [
-        ("{value: 10, tolerance: 0}", "tolerance: 0 mm is not above 0 mm"),
-        ("{value: 10, tolerance: -1}", "tolerance: -1 mm is not above 0 mm"),
+        ("{value: 10, tolerance: -1}", "tolerance: -1 mm is below 0 mm"),
         ("{value: 10}", "tolerance: is missing (mm)"),
         ("{value: 10, tolerance: 1 %}", 'tolerance: "1 %" is not a number (mm)'),
         ("{value: '10', tolerance: 1}", 'value: "10" is not a number (mm); write 10'),
