@@ -5,7 +5,7 @@ from pathlib import Path
 
 from gripperd.config import ModelFile, Settings, load_settings, shipped
 from gripperd.errors import Refused
-from gripperd.store import Version, Versions, folder_of, versions_of
+from gripperd.store import Version, Versions, difference, folder_of, versions_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +35,12 @@ class Parent:
 def parent_of(model: ModelFile, config: Path | None) -> Parent:
     """Find a model among the versions of those that are configured.
 
-    A model of no gripper becomes version 0 of versions of its own.
+    A model of no gripper is version 0 of versions of its own, or one of these.
 
     Raises
     ------
     Refused
-        Another model of that name is configured.
+        Another model of that name is configured, or has versions.
     ConfigError
         The configuration is unusable.
     """
@@ -51,11 +51,30 @@ def parent_of(model: ModelFile, config: Path | None) -> Parent:
             if version.model == model:
                 return Parent(versions, version.number, settings, is_configured=True)
             if version.name == model.name:
-                message = (
-                    f"{model.source}: another model is configured as {model.name}"
-                    f" ({version.model.source}); nothing was kept"
-                )
-                hints = ("give the model another name",)
-                raise Refused(message, code="name-taken", hints=hints)
-    versions = Versions(folder_of(settings.state_dir, model), model)
-    return Parent(versions, 0, settings, is_configured=False)
+                raise _taken(model, f"configured as {model.name}", version)
+    versions, number = _of_its_own(model, settings.state_dir)
+    return Parent(versions, number, settings, is_configured=False)
+
+
+def _of_its_own(model: ModelFile, state_dir: Path) -> tuple[Versions, int]:
+    """Versions of a model of no gripper, and which of them it is."""
+    folder = folder_of(state_dir, model)
+    if model.lineage is not None:
+        name = model.name.removesuffix(f"-{model.lineage.version}")
+        family = Versions.kept(folder.with_name(name))
+        for version in family.all().versions if family else ():
+            if family and version.model == model:
+                return family, version.number
+    kept = Versions.kept(folder)
+    if kept is not None and difference(kept.get(0).model, model):
+        raise _taken(model, f"version 0 of {model.name}", kept.get(0))
+    return Versions(folder, model), 0
+
+
+def _taken(model: ModelFile, what: str, version: Version) -> Refused:
+    message = (
+        f"{model.source}: another model is {what} ({version.model.source});"
+        " nothing was kept"
+    )
+    hints = ("give the model another name",)
+    return Refused(message, code="name-taken", hints=hints)

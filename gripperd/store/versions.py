@@ -1,7 +1,8 @@
 """Versions of one model: numbered files that never change, and which one is active.
 
-Version 0 is the configured model file itself, named ``reference`` for example. Version
-3 is the file ``3.yaml``, and the model in it is named ``reference-3``. Both spellings
+Version 0 is the configured model file itself, named ``reference`` for example; as it
+was when the first version was made from it, ``0.yaml`` has it. Version 3 is the file
+``3.yaml``, and the model in it is named ``reference-3``. Both spellings
 name a version, and so does :data:`ACTIVE`.
 """
 
@@ -66,6 +67,18 @@ class Versions:
         self._folder = folder
         self._base = base
 
+    @classmethod
+    def kept(cls, folder: Path) -> "Versions | None":
+        """Those in a folder, of the model that the first was made from; none if none.
+
+        Raises
+        ------
+        ConfigError
+            That model is damaged.
+        """
+        base = folder / "0.yaml"
+        return cls(folder, load_model(base)) if base.exists() else None
+
     @property
     def active(self) -> int:
         """Number of the active version.
@@ -112,6 +125,8 @@ class Versions:
             name = self._name(number)
             text = model_text(replace(model, name=name, lineage=lineage))
             create_file(self._file(number), sealed(text), check=_readable)
+            if not self._file(0).exists():
+                create_file(self._file(0), model_text(self._base), check=_readable)
         return self.get(number)
 
     def same(
