@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -21,8 +23,8 @@ from tests.diagnose.fitted import ended, fitted
 from tests.diagnose.small import MODEL, Hidden, Moment, recording
 
 RELAY = Hysteron.RELAY
-OF_WAY = PreslidingHysteresis(hysteron=RELAY, relays=-10.0, curve=1.0)
-OF_PRESSURE = PressureHysteresis(hysteron=RELAY, relays=-10.0, centre=350e3, curve=1.0)
+OF_WAY = PreslidingHysteresis(hysteron=RELAY, relays=10.0, curve=1.0)
+OF_PRESSURE = PressureHysteresis(hysteron=RELAY, relays=10.0, centre=350e3, curve=1.0)
 
 
 def _bank(signal: Array, middle: float, spread: float, half: float) -> Array:
@@ -37,13 +39,13 @@ def _bank(signal: Array, middle: float, spread: float, half: float) -> Array:
 
 
 def bank_of_way(half: float) -> Hidden:
-    """Take up to 60 N by relays over contraction so wide, or without a loop."""
-    return lambda moment: -60.0 * _bank(moment.contraction, 0.08, 0.05, half)
+    """Give up to 60 N by relays over contraction so wide, or without a loop."""
+    return lambda moment: 60.0 * _bank(moment.contraction, 0.08, 0.05, half)
 
 
 def bank_of_pressure(half: float) -> Hidden:
-    """Take as much by relays over pressure."""
-    return lambda moment: -60.0 * _bank(moment.pressure, 250e3, 80e3, half)
+    """Give as much by relays over pressure."""
+    return lambda moment: 60.0 * _bank(moment.pressure, 250e3, 80e3, half)
 
 
 @pytest.mark.parametrize(
@@ -53,6 +55,7 @@ def bank_of_pressure(half: float) -> Hidden:
         (bank_of_way(0.0), OF_WAY, False),
         (bank_of_pressure(40e3), OF_PRESSURE, True),
         (bank_of_pressure(0.0), OF_PRESSURE, False),
+        (bank_of_pressure(24e3), OF_PRESSURE, True),
         (bank_of_way(0.0), PreslidingHysteresis(near=10.0), True),
     ],
 )
@@ -62,6 +65,18 @@ def test_relays_show_a_loop_where_there_is_one_and_springs_are_nothing_else(
     problem = problem_of(recording(hidden), MODEL, {})
     start = Point(np.zeros(len(problem.constants)), (effect,))
     told = Rival((Candidate(effect.name, effect),), polished(problem, start))
+    assert shows_its_loop(problem, told) is is_seen
+
+
+@pytest.mark.parametrize(("half", "is_seen"), [(24e3, False), (80e3, True)])
+def test_a_loop_the_wrong_way_round_is_most_of_what_there_is(
+    half: float, *, is_seen: bool
+) -> None:
+    """Relays that take force give work: less falls away going up than coming down."""
+    taken = bank_of_pressure(half)
+    problem = problem_of(recording(lambda moment: -taken(moment)), MODEL, {})
+    start = Point(np.zeros(len(problem.constants)), (replace(OF_PRESSURE, relays=-10),))
+    told = Rival((Candidate(OF_PRESSURE.name, OF_PRESSURE),), polished(problem, start))
     assert shows_its_loop(problem, told) is is_seen
 
 
@@ -94,7 +109,7 @@ def test_relays_are_not_heard_where_misfit_is_far_too_large(
 def test_relays_beside_much_else_are_not_found(
     monkeypatch: pytest.MonkeyPatch, far: float, *, found: bool
 ) -> None:
-    """They take 300 N; a wave that no library holds leaves 17 squares of the noise."""
+    """They give 300 N; a wave that no library holds leaves 17 squares of the noise."""
 
     def lost(moment: Moment) -> Array:
         return 5 * bank_of_pressure(80e3)(moment) + 60.0 * np.sin(moment.time)
