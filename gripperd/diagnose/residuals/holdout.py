@@ -79,50 +79,66 @@ def _spared(problem: Problem) -> set[int]:
     """Sweeps whose inputs lie inside the range of the rest, spread over the order.
 
     The first of a recording stays: only it can show a first inflation. So does the last
-    that shows a signal, the only fast one: what speed does shows in it alone, and the
-    only one in which jaws travel.
+    that shows a signal, the only one in which the muscle is fast, or its pressure: what
+    speed does shows in it alone, the only one in which jaws travel, and each of two in
+    which they press: one alone does not tell friction from a spring.
     """
     courses, shown = problem.courses, _shown(problem)
-    wanted = max(1, round(SHARE * len(shown)))
-    top = {
-        name: max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
-        for name in COMMANDED
-    }
-    later = [index for index in shown if index > 0]
-    moved = [index for index in later if not _still(courses[index], top)]
-    inside = {columns: within(courses, columns) for columns in (CONDITIONS, PLACES)}
-    columns, inner = next(
-        (
-            (columns, found)
-            for columns, one in inside.items()
-            if (found := [i for i in moved if i in one])
-        ),
-        ((), moved or later),
-    )
-    grasps = [index for index in shown if _gripped(courses[index])]
-    # One grasp at most: the constants of the jaws are known from the others alone.
-    spare = [index for index in inner if index in grasps][-1:]
-    # Of three it must be one, or no sweep judges the jaws.
-    spared = set((spare or grasps[-1:]) if len(grasps) >= FEW_JAWS else [])
-    rest = [i for i in inner if i not in grasps or (i in spare and not spared)]
-    moving = [index for index in rest if _travelled(courses[index])]
-    resting = [index for index in rest if index not in moving]
-    wanted = max(1, wanted - len(spared))
-    of_moving = round(wanted * len(moving) / max(len(rest), 1))
-    spared.update(_spread(moving, of_moving), _spread(resting, wanted - of_moving))
-    # No other takes its place: what is next to it in kind would go with it.
     jaws = [index for index in shown if _opens(courses[index])]
-    alone = _fastest(courses) | _only([i for i in jaws if _travelled(courses[i])])
+    grasps = [index for index in shown if _gripped(courses[index])]
+    kept = _fastest(courses, "pressure")
+    kept |= set(grasps if len(grasps) < FEW_JAWS else [])
+    later = [index for index in shown if index > 0 and index not in kept]
+    columns, inner = _inner(courses, later)
+    spared = _chosen(courses, inner, grasps, max(1, round(SHARE * len(shown))))
+    # No other takes its place: what is next to it in kind would go with it.
+    alone = _fastest(courses, "contraction")
+    alone |= _only([index for index in jaws if _travelled(courses[index])])
     spared -= alone
     if not spared:
         spared.update(_spread([index for index in inner if index not in alone], 1))
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
-        spared.add([index for index in jaws if index not in alone][-1])
+        free = [index for index in jaws if index not in alone | kept]
+        spared.update(free[-1:] if len(free) > 1 else [])
     for index in sorted(spared, reverse=True):
         left = [shown[place] for place in shown.keys() - spared]
         if not shown[index] <= set[Signal]().union(*left):
             spared.remove(index)
     return spared - _left_alone(courses, spared & set(inner), columns)
+
+
+def _inner(
+    courses: Sequence[Course], later: Sequence[int]
+) -> tuple[Sequence[str], list[int]]:
+    """Sweeps that others reach as far as, holds apart, and in which inputs they do."""
+    top = {
+        name: max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
+        for name in COMMANDED
+    }
+    moved = [index for index in later if not _still(courses[index], top)]
+    for columns in (CONDITIONS, PLACES):
+        inside = within(courses, columns)
+        if inner := [index for index in moved if index in inside]:
+            return columns, inner
+    return (), moved or list(later)
+
+
+def _chosen(
+    courses: Sequence[Course], inner: Sequence[int], grasps: Sequence[int], wanted: int
+) -> set[int]:
+    """So many of the inner sweeps, those that travel and those that rest in turn."""
+    # One grasp at most: the constants of the jaws are known from the others alone.
+    spare = [index for index in inner if index in grasps][-1:]
+    # Of three it must be one, or no sweep judges the jaws.
+    spared = set((spare or grasps[-1:]) if len(grasps) >= FEW_JAWS else [])
+    rest = [index for index in inner if index not in grasps]
+    moving = [index for index in rest if _travelled(courses[index])]
+    resting = [index for index in rest if index not in moving]
+    wanted = max(1, wanted - len(spared))
+    of_moving = round(wanted * len(moving) / max(len(rest), 1))
+    return spared.union(
+        _spread(moving, of_moving), _spread(resting, wanted - of_moving)
+    )
 
 
 def _left_alone(
@@ -207,19 +223,18 @@ def within(courses: Sequence[Course], columns: Sequence[str] = CONDITIONS) -> li
     return np.flatnonzero(covered).tolist()
 
 
-def _fastest(courses: Sequence[Course]) -> set[int]:
-    """Give the sweep that travels faster than all others by far, if one does."""
-    pace = np.array([_pace(course) for course in courses])
+def _fastest(courses: Sequence[Course], name: str) -> set[int]:
+    """Give the sweep in which an input is faster than in all others by far, if any."""
+    pace = np.array([_pace(course, name) for course in courses])
     others = _others_most(pace)
     alone = (pace > FASTER * others) & (others > 0)
     return set(np.flatnonzero(alone).tolist())
 
 
-def _pace(course: Course) -> float:
-    """How fast a sweep travels where it travels fast; 0 if it does not. [1/s]."""
-    if not _travelled(course):
-        return 0.0
-    return float(np.nanquantile(np.abs(course.rate("contraction")), QUICKLY))
+def _pace(course: Course, name: str) -> float:
+    """How fast an input is where it is fast; 0 where it does not go. [per s]."""
+    rests = name == "contraction" and not _travelled(course)
+    return 0.0 if rests else float(np.nanquantile(np.abs(course.rate(name)), QUICKLY))
 
 
 def _others_most(values: Array) -> Array:

@@ -174,13 +174,15 @@ def test_no_hold_is_spared_though_its_valve_is_shut_and_leaks(
     assert (spared == "held") is not commanded
 
 
-def _faster(problem: Problem, names: set[str], times: float) -> Problem:
-    """The same, had some sweeps travelled so many times as fast."""
+def _faster(
+    problem: Problem, names: set[str], times: float, what: str = "contraction"
+) -> Problem:
+    """The same, had an input been so many times as fast in some sweeps."""
 
     def hurried(course: Course) -> Course:
-        known = course.smooth["contraction"]
+        known = course.smooth[what]
         quick = known._replace(rate=times * known.rate)
-        return replace(course, smooth={**course.smooth, "contraction": quick})
+        return replace(course, smooth={**course.smooth, what: quick})
 
     return replace(
         problem,
@@ -199,6 +201,15 @@ def test_the_only_fast_sweep_stays(
 ) -> None:
     assert "e" in split(blank).runs
     assert ("e" in split(_faster(blank, fast, times)).runs) is is_spared
+
+
+@pytest.mark.parametrize(
+    ("fast", "is_spared"), [(set(), True), ({"c"}, False), ({"a", "c"}, True)]
+)
+def test_the_only_sweep_in_which_the_pressure_is_fast_stays(
+    blank: Problem, fast: set[str], *, is_spared: bool
+) -> None:
+    assert ("c" in split(_faster(blank, fast, 9.0, "pressure")).runs) is is_spared
 
 
 @pytest.mark.parametrize("left_away", ["b", "c", "b2"])
@@ -261,11 +272,19 @@ def test_a_spared_grasp_is_one_of_the_fifth(blank: Problem) -> None:
 
 
 @pytest.mark.parametrize("pulls", [(60, 40), (40, 60)])
-def test_of_two_grasps_the_stronger_is_never_spared(
-    blank: Problem, pulls: tuple[float, ...]
-) -> None:
+def test_of_two_grasps_none_is_spared(blank: Problem, pulls: tuple[float, ...]) -> None:
     problem, names = _grasps(blank, pulls)
-    assert names[pulls.index(60)] not in split(problem).runs
+    runs = split(problem).runs
+    assert runs
+    assert not {*names} & {*runs}
+
+
+def test_beside_two_grasps_the_only_sweep_of_free_jaws_stays(blank: Problem) -> None:
+    pressing, names = _grasps(blank, (60, 40))
+    free, _ = _grasps(blank, (60, 40, 0.0))
+    runs = split(free).runs
+    assert pressing.courses[6].run == free.courses[6].run
+    assert not {*names, free.courses[6].run} & {*runs}
 
 
 def test_the_last_sweep_that_shows_a_signal_stays(blank: Problem) -> None:
