@@ -183,11 +183,12 @@ def _judged(
     main = main_signal(best, judged)
     # That tolerances are too tight is one finding, however many constants it moves.
     effects = 1 if nearest.looser else len(entries)
+    exact = not nearest.looser and not nearest.effects
     bearing = bearing_signal(train, best, main, judged)
     gap = judged[bearing] if bearing else None
     spoilt = any(one.is_spoilt for one in judged.values())
     against = imitated or spoilt or refuted(parts, inside, found, best)
-    if against or (gap and not gap.confirms(effects)):
+    if against or (gap and not gap.confirms(effects, exact=exact)):
         is_open = bool(imitated) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     conclusion = not_closed(train, conclusion, judged)

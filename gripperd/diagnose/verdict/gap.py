@@ -34,7 +34,8 @@ REACHED = 1.3
 LEAST_CLOSED = 0.45
 """Share of a gap well above the noise that effects close at least. [-]"""
 CROWD = 2
-"""More effects at once are held to the two limits that follow."""
+"""More effects at once are held to the two limits that follow, constants alone to the
+latter."""
 CLOSELY, MOST_CLOSED = 1.15, 0.85
 
 
@@ -84,10 +85,11 @@ class Gap:
         least = max(self.recalibrated, self.reachable)
         return self.ci95_after[0] > REACHED * least
 
-    def confirms(self, effects: int) -> bool:
+    def confirms(self, effects: int, *, exact: bool = False) -> bool:
         """Whether what took no part bears so many effects out.
 
         A crowd of effects can imitate one that no library holds, but not closely. What
+        has no form that could be wrong, as a constant has none, closes what it is. What
         is worse by no more than chance, where nothing was left to close, says nothing;
         where something was, a name closes some of it. Where a regulator sleeps a few
         rests weigh as much as all that moves, and are off by chance.
@@ -100,7 +102,8 @@ class Gap:
             return False
         crowd = effects > CROWD
         reached = self.after <= (CLOSELY if crowd else REACHED) * self.reachable
-        return reached or self.closed >= (MOST_CLOSED if crowd else LEAST_CLOSED)
+        least = MOST_CLOSED if crowd or exact else LEAST_CLOSED
+        return reached or self.closed >= least
 
 
 def gaps(

@@ -169,6 +169,17 @@ def test_a_crowd_of_effects_must_close_a_gap_closely(
 
 
 @pytest.mark.parametrize(
+    ("after", "confirms"), [(3.8, True), (4.4, True), (4.5, False), (6.0, False)]
+)
+def test_what_has_no_form_to_be_wrong_leaves_noise_or_little_of_the_gap(
+    after: float, *, confirms: bool
+) -> None:
+    gap = _gap(9.0, after)
+    assert gap.confirms(1, exact=True) is confirms
+    assert gap.confirms(1)
+
+
+@pytest.mark.parametrize(
     ("recalibrated", "after", "confirms"),
     [(3.2, 3.25, True), (3.6, 3.5, True), (3.6, 3.65, False)],
 )
