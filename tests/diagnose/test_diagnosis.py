@@ -220,7 +220,7 @@ def test_what_an_effect_does_not_touch_speaks_neither_for_nor_against_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Play in a linkage, seen in two sweeps only, which cannot be spared."""
-    monkeypatch.setattr(Gap, "confirms", lambda _gap, _effects: False)
+    monkeypatch.setattr(Gap, "confirms", lambda _gap, _effects, *, exact: exact)
     told = with_jaws(recording())
     seen = {"d", "f"}
     told = altered(told, moments().keys() - seen, "opening", lambda wide: wide * np.nan)
@@ -254,7 +254,11 @@ def test_a_constant_of_the_jaws_is_borne_out_by_the_jaws(
     found = diagnose(told, model, {}, {})
     assert _names(found) == ["parameter:gripper.open_width"]
     assert found.main is Signal.FORCE
-    monkeypatch.setattr(Gap, "confirms", lambda gap, _: gap.signal is Signal.FORCE)
+    monkeypatch.setattr(
+        Gap,
+        "confirms",
+        lambda gap, _, *, exact: not exact or gap.signal is Signal.FORCE,
+    )
     assert diagnose(told, model, {}, {}).verdict is not Verdict.NAMED
 
 
@@ -394,7 +398,7 @@ def test_where_nothing_is_missing_nothing_is_told_to_be_near_or_next(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """A name that sweeps left out do not bear out, and nothing else to be seen."""
-    monkeypatch.setattr(Gap, "confirms", lambda _gap, _effects: False)
+    monkeypatch.setattr(Gap, "confirms", lambda _gap, _effects, *, exact: exact)
     monkeypatch.setattr(Gap, "is_open", False)
     weak = recording(threshold(6.0), noise=0.1)
     found = diagnose(weak, MODEL, {}, {name: EFFECTS[name] for name in FEW})

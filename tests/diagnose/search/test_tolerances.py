@@ -82,7 +82,9 @@ def test_it_is_said_that_the_tolerances_are_too_tight(both: Diagnosis) -> None:
 
 
 def test_they_are_one_finding(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Gap, "confirms", lambda _gap, effects: effects == 1)
+    monkeypatch.setattr(
+        Gap, "confirms", lambda _gap, effects, *, exact: effects == 1 and not exact
+    )
     assert _told(0.02, -0.02).verdict is Verdict.NAMED
 
 
