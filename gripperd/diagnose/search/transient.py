@@ -102,20 +102,10 @@ def _with(
     listed: Sequence[Candidate],
     noises: Mapping[Signal, Noise],
 ) -> tuple[Found, Contest]:
-    here = best.best
-    if found.problem.inflation([kind.signal]) <= 1 or not here.candidates:
+    problem = _judging(kind, found.problem, best.best, noises)
+    if problem is None:
         return found, best
-    if any(_is_cause(kind, one) for one in here.candidates):
-        return found, best
-    point = here.fit.point
-    # Tolerances that are too tight are one finding, of which nothing can be dropped.
-    if point.looser:
-        return found, best
-    lower = deflated(found.problem, here.fit)
-    problem = kind.within(lower, point, noises[kind.signal])
-    if problem is lower:
-        return found, best
-    here = Rival(here.candidates, polished(problem, point))
+    here = Rival(best.best.candidates, polished(problem, best.best.fit.point))
     tried = [here]
     lasting, others = _grown(kind, problem, here, listed)
     # Once: two names in all are as many as a measured muscle has needed.
@@ -145,6 +135,24 @@ def _with(
         replace(found, problem=problem, best=told, rivals=tuple(rivals)),
         Contest(told, tuple(places)),
     )
+
+
+def _judging(
+    kind: Transient, problem: Problem, told: Rival, noises: Mapping[Signal, Noise]
+) -> Problem | None:
+    """Give the problem with the stretches that judge a transient, if one is asked for.
+
+    None is near the noise, where the search hears it, beside a cause that is told
+    already, and where nothing rests long enough.
+    """
+    near = problem.inflation([kind.signal]) <= 1
+    known = any(_is_cause(kind, one) for one in told.candidates)
+    # Tolerances that are too tight are one finding, of which nothing can be dropped.
+    if near or known or not told.candidates or told.fit.point.looser:
+        return None
+    lower = deflated(problem, told.fit)
+    judging = kind.within(lower, told.fit.point, noises[kind.signal])
+    return None if judging is lower else judging
 
 
 def _grown(
