@@ -19,7 +19,7 @@ Sigmas: TypeAlias = dict[KeyPath, float]
 class Known(Section):
     """A number and its one sigma, in the unit of the key they stand under.
 
-    A sigma of 0 says that the number is exact, as files do that round theirs.
+    A sigma of 0 says that the number is exact, as files may that round theirs.
     """
 
     value: float

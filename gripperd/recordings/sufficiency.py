@@ -23,7 +23,7 @@ LINKS = (
 FEWEST = 20
 """Rows; fewer do not tell an effect from noise."""
 PERCENT = 0.25
-"""Share of the rows with a contraction above 1, from which no sensor is broken: it is
+"""Share of the readings of contraction above 1, from which no sensor is broken: it is
 told in percent, though rest length is held in up to three sweeps of four. [-]"""
 
 
@@ -33,15 +33,15 @@ def require_ratio(source: str, runs: Sequence[Run]) -> None:
     Raises
     ------
     InputError
-        Telling in how many rows it is above 1.
+        Telling how many of its readings are above 1.
     """
     told = [run.columns["contraction"] for run in runs if run.has("contraction")]
     above = sum(int((values > 1).sum()) for values in told)
-    rows = sum(len(run) for run in runs)
-    if above > PERCENT * rows:
+    readings = sum(int(np.isfinite(values).sum()) for values in told)
+    if above > PERCENT * readings:
         detail = (
-            f"{source}: column contraction is above 1 in {above} of {rows} rows; it is"
-            " a ratio, counted from the rest length: 0.1 for 10 %"
+            f"{source}: column contraction is above 1 in {above} of {readings}"
+            " readings; it is a ratio, counted from the rest length: 0.1 for 10 %"
         )
         raise InputError(detail)
 

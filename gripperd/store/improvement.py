@@ -180,8 +180,9 @@ def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
 def _known(
     before: Mapping[str, float], fitted: Mapping[str, float]
 ) -> dict[str, float]:
-    """Tolerances after a fit: a number at its limit has none."""
-    return {path: size for path, size in {**before, **fitted}.items() if size > 0}
+    """Tolerances after a fit: a number that ended at its limit has none."""
+    known = {**before, **fitted}
+    return {path: size for path, size in known.items() if size or path not in fitted}
 
 
 def _is_inside(one: Estimate, low: float, high: float) -> bool:

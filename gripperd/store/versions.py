@@ -14,7 +14,7 @@ from pathlib import Path
 
 from gripperd.config import Complaint, ModelFile, load_model
 from gripperd.config.complaint import did_you_mean, dotted, gathering
-from gripperd.config.durable import create_file
+from gripperd.config.durable import create_file, replace_file
 from gripperd.config.lineage import Lineage, Provenance
 from gripperd.config.model_text import model_text
 from gripperd.config.sealed import check_seal, sealed
@@ -24,6 +24,8 @@ from gripperd.store.pointer import Pointer, locked, read_pointer, write_pointer
 
 ACTIVE = "active"
 """Stands for whichever version is active."""
+VERSIONS = "[1-9]*.yaml"
+"""Files of the versions that were made."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +79,10 @@ class Versions:
             That model is damaged.
         """
         base = folder / "0.yaml"
-        return cls(folder, load_model(base)) if base.exists() else None
+        if not (base.exists() and any(folder.glob(VERSIONS))):
+            return None
+        check_seal(base)
+        return cls(folder, load_model(base))
 
     @property
     def active(self) -> int:
@@ -124,9 +129,9 @@ class Versions:
             )
             name = self._name(number)
             text = model_text(replace(model, name=name, lineage=lineage))
+            if number == 1:
+                replace_file(self._file(0), sealed(model_text(self._base)))
             create_file(self._file(number), sealed(text), check=_readable)
-            if not self._file(0).exists():
-                create_file(self._file(0), model_text(self._base), check=_readable)
         return self.get(number)
 
     def same(
@@ -220,9 +225,9 @@ class Versions:
         return self.get(self._back(self._read_pointer()).active)
 
     def _back(self, pointer: Pointer) -> Pointer:
-        there = {0, *self._numbers()}
+        others = {0, *self._numbers()} - {pointer.active}
         pointer = pointer.back()
-        while pointer.active not in there:
+        while pointer.active not in others:
             pointer = pointer.back()
         return pointer
 
@@ -256,13 +261,13 @@ class Versions:
 
     def _elsewhere(self, which: int | str) -> str:
         """Say that it is a version of another model; empty when it is none."""
-        for path in self._folder.parent.glob("*/[1-9]*.yaml"):
+        for path in self._folder.parent.glob(f"*/{VERSIONS}"):
             if f"{path.parent.name}-{path.stem}" == which:
                 return f"it is one of {path.parent.name}: {path}"
         return ""
 
     def _numbers(self) -> Iterator[int]:
-        for path in self._folder.glob("[1-9]*.yaml"):
+        for path in self._folder.glob(VERSIONS):
             if path.stem.isdecimal():
                 yield int(path.stem)
 

@@ -84,10 +84,10 @@ def test_what_was_left_out_is_said_when_too_little_remains(
 
 
 def test_a_contraction_in_percent_is_told(write: Write, complaint: Complaint) -> None:
-    columns = good(40)
-    columns["contraction"][29:] = [10.0] * 11
+    columns = good(60)
+    columns["contraction"][29:] = [10.0] * 11 + [""] * 20
     assert complaint(write(columns)) == (
-        "rig.csv: column contraction is above 1 in 11 of 40 rows; it is a ratio,"
+        "rig.csv: column contraction is above 1 in 11 of 40 readings; it is a ratio,"
         " counted from the rest length: 0.1 for 10 %"
     )
 

@@ -8,7 +8,7 @@ import pytest
 
 from gripperd.config import ModelFile, load_model
 from gripperd.demo.rig import Hidden, Rig
-from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate
 from gripperd.effects.creep import Creep
@@ -104,26 +104,34 @@ def test_no_tolerance_reaches_past_a_bound(creep: Found) -> None:
     assert "effects.creep.time" not in better.model.tolerances
 
 
-@pytest.mark.parametrize(("value", "tolerance"), [(0.0, None), (0.001, 0.001)])
+@pytest.mark.parametrize(
+    ("value", "tolerance"), [(0.0, None), (0.001, 0.001), (1.999, 0.001)]
+)
 def test_a_tolerance_ends_where_no_constant_can_be(
     creep: Found, tmp_path: Path, value: float, tolerance: float | None
 ) -> None:
     model, diagnosis = creep
-    (index,) = (
-        index
-        for index, one in enumerate(diagnosis.found.problem.constants)
-        if one.path == "muscle.friction_coefficient"
-    )
-    version = kept((model, rubbing(diagnosis, index, value, 0.003)), tmp_path)
+    version = kept((model, rubbing(diagnosis, value, 0.003)), tmp_path)
     muscle = version.model.static.muscle
     assert muscle.friction_coefficient == pytest.approx(value)
     there = version.model.tolerances.get("muscle.friction_coefficient")
     assert there == (tolerance and pytest.approx(tolerance))
 
 
-def rubbing(diagnosis: Diagnosis, index: int, value: float, std: float) -> Diagnosis:
+def test_what_is_stated_to_be_exact_stays_so(creep: Found, tmp_path: Path) -> None:
+    model, diagnosis = creep
+    exact = replace(model, tolerances={**model.tolerances, "muscle.rest_length": 0.0})
+    recording, library = diagnosis.recording, {"creep": Creep}
+    found = diagnose(recording, model.explanation(), exact.tolerances, library, SEED)
+    version = kept((exact, found), tmp_path)
+    assert version.model.tolerances["muscle.rest_length"] == 0
+
+
+def rubbing(diagnosis: Diagnosis, value: float, std: float) -> Diagnosis:
     """Let the coefficient of friction have been fitted so."""
     found, contest = diagnosis.found, diagnosis.contest
+    paths = [one.path for one in found.problem.constants]
+    index = paths.index("muscle.friction_coefficient")
     listed = list(found.problem.constants)
     listed[index] = replace(listed[index], nominal=0.0, sigma=1.0)
     fit = contest.best.fit

@@ -122,7 +122,8 @@ def test_a_model_that_could_not_be_read_again_is_not_kept(
         "nothing was kept, for nobody could read it again: effects[2].slow: 0.6 is"
         " outside -0.15 to 0.15, the physical bounds of creep"
     )
-    assert list(tmp_path.rglob("*.yaml")) == []
+    assert [one.name for one in tmp_path.rglob("*.yaml")] == ["0.yaml"]
+    assert Versions.kept(tmp_path / "models/reference") is None
     assert list(tmp_path.rglob("*.draft")) == []
 
 
@@ -175,6 +176,33 @@ def test_a_version_that_is_gone_can_be_rolled_back(
     assert versions.before().number == 1
     assert versions.rollback().number == 1
     assert versions.get().number == 1
+
+
+def test_rollback_never_ends_where_it_began(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    for _ in range(2):
+        add(versions, provenance)
+    for number in (1, 2, 1):
+        versions.activate(number)
+    (tmp_path / "models/reference/2.yaml").unlink()
+    assert versions.rollback().number == 0
+
+
+def test_the_model_that_versions_were_made_from_is_kept_as_it_was(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    folder = tmp_path / "models/reference"
+    add(versions, provenance)
+    other = replace(versions.get(0).model, tolerances={})
+    add(Versions(folder, other), provenance)
+    kept = Versions.kept(folder)
+    assert kept is not None
+    assert kept.get(0).model == versions.get(0).model
+    base = folder / "0.yaml"
+    base.write_text(base.read_text().replace("250.0", "251.0"))
+    with pytest.raises(ConfigError, match="is not as it was written"):
+        Versions.kept(folder)
 
 
 def test_a_version_put_in_the_place_of_another_is_refused(

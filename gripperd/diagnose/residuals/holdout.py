@@ -86,11 +86,17 @@ def _spared(problem: Problem) -> set[int]:
     courses, shown = problem.courses, _shown(problem)
     jaws = [index for index in shown if _opens(courses[index])]
     grasps = [index for index in shown if _gripped(courses[index])]
-    kept = _fastest(courses, "pressure")
-    kept |= set(grasps if len(grasps) < FEW_JAWS else [])
+    few = 0 < len(grasps) < FEW_JAWS
+    kept = _fastest(courses, "pressure") | set(grasps if few else [])
     later = [index for index in shown if index > 0 and index not in kept]
     columns, inner = _inner(courses, later)
-    spared = _chosen(courses, inner, grasps, max(1, round(SHARE * len(shown))))
+    # One grasp at most: the constants of the jaws are known from the others alone. Of
+    # three it must be one, or no sweep judges the jaws.
+    spare = [i for i in inner if i in grasps] or [i for i in later if i in grasps]
+    spared = set(spare[-1:])
+    rest = [index for index in inner if index not in grasps]
+    wanted = max(1, round(SHARE * len(shown)) - len(spared))
+    spared |= _chosen(courses, rest, wanted)
     # No other takes its place: what is next to it in kind would go with it.
     alone = _fastest(courses, "contraction")
     alone |= _only([index for index in jaws if _travelled(courses[index])])
@@ -99,7 +105,8 @@ def _spared(problem: Problem) -> set[int]:
         spared.update(_spread([index for index in inner if index not in alone], 1))
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
         free = [index for index in jaws if index not in alone | kept]
-        spared.update(free[-1:] if len(free) > 1 else [])
+        # Beside few grasps one must stay that tells how free jaws go.
+        spared.update(free[-1:] if len(free) > 1 or not few else [])
     for index in sorted(spared, reverse=True):
         left = [shown[place] for place in shown.keys() - spared]
         if not shown[index] <= set[Signal]().union(*left):
@@ -123,22 +130,12 @@ def _inner(
     return (), moved or list(later)
 
 
-def _chosen(
-    courses: Sequence[Course], inner: Sequence[int], grasps: Sequence[int], wanted: int
-) -> set[int]:
-    """So many of the inner sweeps, those that travel and those that rest in turn."""
-    # One grasp at most: the constants of the jaws are known from the others alone.
-    spare = [index for index in inner if index in grasps][-1:]
-    # Of three it must be one, or no sweep judges the jaws.
-    spared = set((spare or grasps[-1:]) if len(grasps) >= FEW_JAWS else [])
-    rest = [index for index in inner if index not in grasps]
+def _chosen(courses: Sequence[Course], rest: Sequence[int], wanted: int) -> set[int]:
+    """So many sweeps, of those that travel and of those that rest in proportion."""
     moving = [index for index in rest if _travelled(courses[index])]
     resting = [index for index in rest if index not in moving]
-    wanted = max(1, wanted - len(spared))
     of_moving = round(wanted * len(moving) / max(len(rest), 1))
-    return spared.union(
-        _spread(moving, of_moving), _spread(resting, wanted - of_moving)
-    )
+    return {*_spread(moving, of_moving), *_spread(resting, wanted - of_moving)}
 
 
 def _left_alone(

@@ -35,7 +35,7 @@ LEAST_CLOSED = 0.45
 """Share of a gap well above the noise that effects close at least. [-]"""
 CROWD = 2
 """More effects at once are held to the two limits that follow, constants alone to the
-latter."""
+latter, unless it is their tolerances that are wrong."""
 CLOSELY, MOST_CLOSED = 1.15, 0.85
 
 

@@ -54,7 +54,7 @@ class Named:
     """BIC with it less that without it; negative if it is worth its numbers. [-]"""
     heldout_gain: float
     """Share of the mean square above the noise that the others leave on held-out runs,
-    and it closes. [-]"""
+    and it closes; above 1 where it ends below the noise. [-]"""
 
     @property
     def chosen(self) -> dict[str, str]:

@@ -47,6 +47,20 @@ def test_a_constant_stated_to_be_exact_does_not_move() -> None:
     assert "muscle.diameter" not in _listed(muscle__diameter=0.0)
 
 
+@pytest.mark.parametrize("name", ["spring_preload", "spring_rate"])
+def test_no_spring_pushes_back(name: str) -> None:
+    spring = Constant(f"gripper.{name}", 100.0, 60.0, stated=True)
+    assert spring.value(-1.0) == 40.0
+    assert spring.value(-2.0) == 0.0
+
+
+def test_jaws_open_and_follow_the_muscle() -> None:
+    width = Constant("gripper.open_width", 0.085, 0.06, stated=True)
+    ratio = Constant("gripper.ratio", 4.0, 3.0, stated=True)
+    assert 0 < width.value(-2.0) < 1e-5
+    assert 0 < ratio.value(-2.0) < 0.02
+
+
 def test_friction_is_never_known_as_well_as_a_length() -> None:
     listed = _listed(muscle__friction_coefficient=1e-9)
     friction = listed["muscle.friction_coefficient"]

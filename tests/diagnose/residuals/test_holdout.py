@@ -212,6 +212,17 @@ def test_the_only_sweep_in_which_the_pressure_is_fast_stays(
     assert ("c" in split(_faster(blank, fast, 9.0, "pressure")).runs) is is_spared
 
 
+def test_the_only_sweep_of_fast_pressure_stays_though_jaws_press_in_it(
+    blank: Problem,
+) -> None:
+    pressing, (first, _, last) = _grasps(blank, (20, 60, 40))
+    weakest = [one for one in pressing.courses if one.run == first]
+    others = [one for one in pressing.courses if one.run != first]
+    problem = replace(pressing, courses=(*weakest, *others))
+    assert last in split(problem).runs
+    assert last not in split(_faster(problem, {last}, 9.0, "pressure")).runs
+
+
 @pytest.mark.parametrize("left_away", ["b", "c", "b2"])
 @pytest.mark.parametrize("fast", ["d", "e", "f"])
 def test_without_the_only_fast_sweep_another_is_spared(
