@@ -88,7 +88,8 @@ def _spared(problem: Problem) -> set[int]:
     grasps = [index for index in shown if _gripped(courses[index])]
     few = 0 < len(grasps) < FEW_JAWS
     kept = _fastest(courses, "pressure") | set(grasps if few else [])
-    later = [index for index in shown if index > 0 and index not in kept]
+    after = [index for index in shown if index > 0]
+    later = [index for index in after if index not in kept] or after
     columns, inner = _inner(courses, later)
     # One grasp at most: the constants of the jaws are known from the others alone. Of
     # three it must be one, or no sweep judges the jaws.
@@ -102,7 +103,8 @@ def _spared(problem: Problem) -> set[int]:
     alone |= _only([index for index in jaws if _travelled(courses[index])])
     spared -= alone
     if not spared:
-        spared.update(_spread([index for index in inner if index not in alone], 1))
+        others = [index for index in inner if index not in alone]
+        spared.update(_spread(others or inner, 1))
     if len(jaws) >= FEW_JAWS and not spared & set(jaws):
         free = [index for index in jaws if index not in alone | kept]
         # Beside few grasps one must stay that tells how free jaws go.

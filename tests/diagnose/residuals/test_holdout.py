@@ -290,6 +290,31 @@ def test_of_two_grasps_none_is_spared(blank: Problem, pulls: tuple[float, ...]) 
     assert not {*names} & {*runs}
 
 
+def _showing(problem: Problem, names: list[str]) -> Problem:
+    """The same, had but these sweeps and the first shown anything."""
+    courses = tuple(
+        one
+        if index == 0 or one.run in names
+        else replace(one, measured={"contraction": one.measured["contraction"]})
+        for index, one in enumerate(problem.courses)
+    )
+    return replace(problem, courses=courses)
+
+
+def test_of_two_grasps_and_nothing_else_one_is_spared(blank: Problem) -> None:
+    pressing, names = _grasps(blank, (60, 40))
+    found = split(_showing(pressing, names))
+    assert len(found.runs) == 1
+    assert found.runs[0] in names
+    assert found.test.blocks
+
+
+def test_beside_the_first_the_only_fast_sweep_is_spared(blank: Problem) -> None:
+    found = split(_showing(_faster(blank, {"e"}, 3.0), ["e"]))
+    assert found.runs == ("e",)
+    assert found.test.blocks
+
+
 def test_beside_two_grasps_the_only_sweep_of_free_jaws_stays(blank: Problem) -> None:
     pressing, names = _grasps(blank, (60, 40))
     free, _ = _grasps(blank, (60, 40, 0.0))
