@@ -6,12 +6,13 @@ from itertools import islice
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.belief import LEAST
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.limit import has_become
 from gripperd.diagnose.search.loop import discernible, shows_its_loop
@@ -91,6 +92,10 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
             break
         best, without = champion, without_each(problem, champion)
         challenged = _challenged(problem, best, without, listed)
+    sound = _within_limits(problem, best, challenged)
+    if sound is not best:
+        best, without = sound, without_each(problem, sound)
+        challenged = _challenged(problem, best, without, listed)
     named = _by_its_name(found, best, without, challenged)
     if named is not best:
         best, without = named, without_each(problem, named)
@@ -118,7 +123,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
     told
         Its outcome, with whoever was fitted in each place.
     """
-    best = told.best
+    problem, best = found.problem, told.best
     null = found.null.fit
     margin = _margin(null.cost - best.fit.cost, best.excess)
     places = []
@@ -129,10 +134,34 @@ def standing_in(found: Found, told: Contest) -> Contest:
             for rival in rivals
             if best.evidence - rival.evidence < margin
             and not has_become(rival, best)
+            and not _is_held(problem, rival, index)
             and _stands_in(found, best, index, place.without, rival)
         )
         places.append(replace(place, rivals=tuple(alike)))
     return Contest(best, tuple(places))
+
+
+def _within_limits(
+    problem: Problem, best: Rival, challenged: Sequence[Sequence[Rival]]
+) -> Rival:
+    """Give the likeliest that no limit holds back, where one holds an offset or factor.
+
+    No sensor is off by that much, so that something else is wrong that looks like it.
+    """
+    sound = [
+        rival
+        for index, rivals in enumerate(challenged)
+        if _is_held(problem, best, index)
+        for rival in rivals
+        if not strained(problem, rival) and best.evidence - rival.evidence < LEAST
+    ]
+    return max(sound, key=lambda rival: rival.evidence, default=best)
+
+
+def _is_held(problem: Problem, rival: Rival, index: int) -> bool:
+    """Whether a candidate is an offset or a factor that stops at its limit."""
+    one = rival.candidates[index]
+    return is_plain(one) and strained(problem, rival, [one.name])
 
 
 def _by_its_name(
