@@ -2,7 +2,8 @@
 
 from gripperd.store.active import folder_of, versions_of, with_active_models
 from gripperd.store.difference import Change, difference
-from gripperd.store.versions import ACTIVE, Shelf, Version, Versions
+from gripperd.store.version import Shelf, Version
+from gripperd.store.versions import ACTIVE, Versions
 
 __all__ = [
     "ACTIVE",

@@ -7,7 +7,7 @@ from gripperd.config import Settings, model_text
 from gripperd.errors import NotFound, Refused
 from gripperd.store.active import versions_of
 from gripperd.store.diagnoses import MODEL, Diagnoses, StoredDiagnosis, read_improvement
-from gripperd.store.versions import Version
+from gripperd.store.version import Version
 
 
 def accept(

@@ -14,7 +14,8 @@ from gripperd.link.control import UseModel
 from gripperd.link.model import model_message
 from gripperd.model import Chain
 from gripperd.store.active import versions_of, with_model
-from gripperd.store.versions import Version, Versions
+from gripperd.store.version import Version
+from gripperd.store.versions import Versions
 
 WITHIN = 2.0
 """Longest wait for control; it answers in milliseconds. [s]"""

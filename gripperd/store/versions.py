@@ -2,13 +2,13 @@
 
 Version 0 is the configured model file itself, named ``reference`` for example; as it
 was when the first version was made from it, ``0.yaml`` has it. Version 3 is the file
-``3.yaml``, and the model in it is named ``reference-3``. Both spellings
-name a version, and so does :data:`ACTIVE`.
+``3.yaml``, and the model in it is named ``reference-3``. Both spellings name a version,
+and so does :data:`ACTIVE`.
 """
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
@@ -21,37 +21,12 @@ from gripperd.config.sealed import check_seal, sealed
 from gripperd.errors import ConfigError, NotFound, Refused
 from gripperd.store.difference import difference
 from gripperd.store.pointer import Pointer, locked, read_pointer, write_pointer
+from gripperd.store.version import Shelf, Version
 
 ACTIVE = "active"
 """Stands for whichever version is active."""
 VERSIONS = "[1-9]*.yaml"
 """Files of the versions that were made."""
-
-
-@dataclass(frozen=True, slots=True)
-class Version:
-    """One version of a model."""
-
-    number: int
-    """0: the configured model."""
-    model: ModelFile
-    """The model, named after its version; its lineage is None for version 0."""
-
-    @property
-    def name(self) -> str:
-        """Name of the model, such as ``reference-3``."""
-        return self.model.name
-
-
-@dataclass(frozen=True, slots=True)
-class Shelf:
-    """Every version that can be read."""
-
-    versions: tuple[Version, ...]
-    """From 0 up."""
-    active: int
-    complaints: tuple[str, ...]
-    """What is wrong with those that cannot be read."""
 
 
 class Versions:
