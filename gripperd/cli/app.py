@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Annotated, NoReturn
 
 import typer
-from rich.console import Console
 
 from gripperd import __version__
+from gripperd.cli.console import console
 from gripperd.errors import ConfigError, GripperdError, InputError
 
 FAILED, WRONG_USE, UNUSABLE_CONFIGURATION, INTERRUPTED = 1, 2, 78, 130
@@ -90,11 +90,9 @@ def main() -> NoReturn:
 
 
 def _complain(error: GripperdError, status: int) -> NoReturn:
-    console = Console(
-        stderr=True, markup=False, emoji=False, soft_wrap=True, highlight=False
-    )
+    told = console(stderr=True, soft_wrap=True)
     for line in str(error).splitlines():
-        console.print("error:", line)
+        told.print("error:", line)
     for hint in getattr(error, "hints", ()):
-        console.print("  hint:", hint)
+        told.print("  hint:", hint)
     sys.exit(status)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 
 import structlog
 import typer
-from rich.console import Console
 
 from gripperd.cli.app import ConfigFile, app
+from gripperd.cli.console import console
 from gripperd.errors import InputError
 
 if TYPE_CHECKING:
@@ -50,12 +50,7 @@ def run(config: ConfigFile = None) -> None:
     # A damaged version is told before anything is started.
     with_active_models(settings)
     log_to_stderr()
-    raise typer.Exit(
-        run_daemon(
-            settings,
-            Console(markup=False, emoji=False, highlight=False, soft_wrap=True),
-        )
-    )
+    raise typer.Exit(run_daemon(settings, console(soft_wrap=True)))
 
 
 @app.command()

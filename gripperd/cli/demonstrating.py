@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from gripperd import __version__
 from gripperd.cli.app import app
+from gripperd.cli.console import console
 from gripperd.cli.interrupt import interruptible
 from gripperd.cli.waiting import progress
 from gripperd.demo.files import FILES
@@ -35,12 +35,12 @@ def demo_discrepancy(
         story = demonstrate(
             out, effect, seed, program=__version__, now=datetime.now(UTC), progress=tell
         )
-    console = Console(markup=False, emoji=False, soft_wrap=True, highlight=False)
-    console.print(f"hidden   A rig has {effect}, and its model does not know.")
+    told = console(soft_wrap=True)
+    told.print(f"hidden   A rig has {effect}, and its model does not know.")
     for word, sentence in _told(story):
-        console.print(f"{word:<8}", end=" ", style="bold")
-        console.print(sentence)
-    console.print(f"\n{_again(out)}\nreport: {story.report.resolve().as_uri()}")
+        told.print(f"{word:<8}", end=" ", style="bold")
+        told.print(sentence)
+    told.print(f"\n{_again(out)}\nreport: {story.report.resolve().as_uri()}")
 
 
 def _left(out: Path) -> str:

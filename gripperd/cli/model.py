@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from gripperd.cli.app import ConfigFile, Json, app
+from gripperd.cli.console import console
 
 if TYPE_CHECKING:
     from gripperd.store import Change, Shelf, Version
@@ -168,7 +168,7 @@ def _shown(value: object) -> str:
 
 
 def _print(table: Table) -> None:
-    console = Console(markup=False, emoji=False)
-    if not console.is_terminal:
-        console.width = PIPE_WIDTH
-    console.print(table)
+    told = console(highlight=True)
+    if not told.is_terminal:
+        told.width = PIPE_WIDTH
+    told.print(table)

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from gripperd import __version__
 from gripperd.cli.app import ConfigFile, Json, app
+from gripperd.cli.console import console
 from gripperd.errors import InputError
 from gripperd.units import KILO, MILLI
 
@@ -111,7 +111,7 @@ def reproduce(
     table = Table("claim of the paper", "verdict", "here", title=None)
     for claim in report.claims:
         table.add_row(claim.statement, claim.verdict, claim.finding)
-    Console(markup=False, emoji=False).print(table)
+    console(highlight=True).print(table)
     typer.echo(f"wrote {(folder / 'index.html').resolve().as_uri()}")
 
 

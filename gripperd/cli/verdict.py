@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 
-from rich.console import Console, Group
+from rich.console import Group
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from gripperd.cli.console import console
 from gripperd.cli.model import PIPE_WIDTH
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import UNNAMED
@@ -40,11 +41,11 @@ PLACES = 6
 
 def show(diagnosis: Diagnosis) -> None:
     """Print the verdict and what it rests on."""
-    console = Console(markup=False, emoji=False, highlight=False)
-    if not console.is_terminal:
-        console.width = PIPE_WIDTH
+    told = console()
+    if not told.is_terminal:
+        told.width = PIPE_WIDTH
     colour = COLOURS[diagnosis.verdict]
-    console.print(
+    told.print(
         Text.assemble(
             (f"{diagnosis.verdict.value}  ", f"bold {colour}"),
             (summary(diagnosis), "bold"),
@@ -74,8 +75,8 @@ def show(diagnosis: Diagnosis) -> None:
     ]
     for title, part in parts:
         if part is not None:
-            console.print(Text(f"\n{title}", style="bold"))
-            console.print(Padding(part, (0, 0, 0, 2), expand=False))
+            told.print(Text(f"\n{title}", style="bold"))
+            told.print(Padding(part, (0, 0, 0, 2), expand=False))
 
 
 def _found_title(diagnosis: Diagnosis) -> str:
