@@ -175,7 +175,7 @@ def _next(diagnosis: Diagnosis) -> list[str]:
 
 
 def _moved(diagnosis: Diagnosis) -> list[str]:
-    told = recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+    told = recalibrated(diagnosis.found.problem, diagnosis.told)
     far = [one for one in told if abs(one.moved) > FAR]
     return [
         f"{one.key.title} {one.key.shown(one.model * one.key.factor)} ->"

@@ -96,6 +96,12 @@ class Diagnosis:
         return self.found.null.fit.point
 
     @property
+    def told(self) -> Rival:
+        """What the model is to be: with what was named, or better constants alone."""
+        is_named = self.verdict in (Verdict.NAMED, Verdict.AMBIGUOUS)
+        return self.contest.best if is_named else self.found.null
+
+    @property
     def explained(self) -> Point:
         """The model with what was found."""
         return self.contest.best.fit.point

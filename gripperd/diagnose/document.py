@@ -74,7 +74,7 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
         },
         "constants": [
             _constant(one)
-            for one in recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+            for one in recalibrated(diagnosis.found.problem, diagnosis.told)
             if one.constant.moves.intersection(diagnosis.found.problem.signals)
         ],
         "untested": dict(diagnosis.untested),

@@ -149,8 +149,14 @@ def _within(diagnosis: Diagnosis) -> str:
     gap = diagnosis.gaps.get(diagnosis.main) if diagnosis.main else None
     if gap is None or gap.recalibrated > LITTLE * gap.before:
         return ""
-    told = recalibrated(diagnosis.found.problem, diagnosis.contest.best)
-    first, *_ = sorted(told, key=lambda one: -abs(one.moved))
+    told = [
+        one
+        for one in recalibrated(diagnosis.found.problem, diagnosis.told)
+        if gap.signal in one.constant.moves
+    ]
+    if not told:
+        return ""
+    first = max(told, key=lambda one: abs(one.moved))
     return (
         f"once constants move ({first.key.title}"
         f" {first.key.shown(first.fit * first.key.factor)} instead of"

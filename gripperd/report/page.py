@@ -7,6 +7,7 @@ import yaml
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.objection import contradicted, left_out
 from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.search.price import SEEN
 from gripperd.diagnose.statement import offered, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.key import public
@@ -109,6 +110,7 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
         "ranking": rows.ranking(diagnosis),
         "contenders": rows.contenders(diagnosis),
         "overruled": rows.overruled(diagnosis),
+        "seen": f"{SEEN:.1%}",
         "numbers": rows.numbers(diagnosis),
         "constants": rows.constants(diagnosis),
         "open": [

@@ -105,26 +105,27 @@ def ranking(diagnosis: Diagnosis) -> Bars | None:
 
 def contenders(diagnosis: Diagnosis) -> Table:
     """Explanations that were fitted in full, best first."""
-    told = diagnosis.contest.best
+    best = diagnosis.contest.best
     rows: dict[tuple[str, ...], tuple[str, ...]] = {}
     for rival in sorted(_fitted(diagnosis), key=lambda one: -one.evidence):
         names = tuple(sorted(map(public, rival.names)))
-        behind = told.evidence - rival.evidence
-        if set(rival.names) > set(told.names) and abs(behind) < IDLE:
+        behind = best.evidence - rival.evidence
+        if set(rival.names) > set(best.names) and abs(behind) < IDLE:
             continue
         misfit = 1 + rival.excess / rival.fit.samples
         label = " + ".join(names) or "better constants alone"
         rows.setdefault(names, (label, f"{behind + 0.0:.1f}", f"{misfit:.2f}"))
+    best_is = "is told" if diagnosis.told is best else "came nearest"
     return Table(
         "Explanations fitted in full",
-        ("explanation", "behind what is told [nat]", "χ² per sample"),
+        ("explanation", f"behind what {best_is} [nat]", "χ² per sample"),
         tuple(list(rows.values())[:RANKED]),
     )
 
 
 def overruled(diagnosis: Diagnosis) -> bool:
     """Whether something else than what is told has more evidence."""
-    told = diagnosis.contest.best.evidence
+    told = diagnosis.told.evidence
     return any(one.evidence > told + EVEN for one in _fitted(diagnosis))
 
 
@@ -173,7 +174,7 @@ def constants(diagnosis: Diagnosis) -> Table:
             f"{one.moved:+.1f} sigma",
             (one.key.unit or "-").replace("_per_", "/"),
         )
-        for one in recalibrated(diagnosis.found.problem, diagnosis.contest.best)
+        for one in recalibrated(diagnosis.found.problem, diagnosis.told)
     )
     columns = ("constant", "model", "tolerance", "fit", "± 1 sigma", "moved by", "unit")
     return Table("Constants of the model", columns, rows)

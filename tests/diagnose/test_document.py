@@ -61,6 +61,31 @@ def test_it_has_every_key_of_the_contract(creep: Diagnosis) -> None:
     }  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("verdict", "is_told"),
+    [
+        (Verdict.NAMED, True),
+        (Verdict.AMBIGUOUS, True),
+        (Verdict.UNEXPLAINED, False),
+        (Verdict.NONE, False),
+    ],
+)
+def test_constants_are_those_of_the_model_that_is_told(
+    creep: Diagnosis, verdict: Verdict, is_told: bool
+) -> None:
+    """A name that is withdrawn takes its constants with it."""
+    told = creep.contest.best if is_told else creep.found.null
+    index = [one.path for one in creep.found.problem.constants].index("muscle.diameter")
+    shift = float(told.fit.point.shifts[index])
+    known = creep.found.problem.constants[index]
+    (said,) = [
+        one["fit"]
+        for one in written(replace(creep, verdict=verdict))["constants"]
+        if one["name"] == "muscle.diameter_mm"
+    ]
+    assert said == pytest.approx(1e3 * (known.nominal + shift * known.sigma), rel=1e-4)
+
+
 def test_what_lies_beyond_the_search_has_a_gap_of_its_own(creep: Diagnosis) -> None:
     gap = replace(creep.gaps[Signal.FORCE], before=40.0, recalibrated=30.0, after=20.0)
     beyond = Extrapolation(("fast",), {Signal.FORCE: gap})

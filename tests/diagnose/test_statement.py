@@ -1,10 +1,13 @@
+from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.recording import Contradiction
+from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.statement import offered, reasons, span, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate, Named
@@ -136,6 +139,40 @@ def test_the_verdict_has_the_gap_before_and_after(creep: Diagnosis) -> None:
         "The model lacks creep; on data it never saw the force is off by 2.62 N"
         " instead of 29.6 N (11.7 N with better constants alone), and repeats by"
         " 3.04 N."
+    )
+
+
+def nothing_missing(creep: Diagnosis, moved: Mapping[str, float]) -> Diagnosis:
+    """Nothing named, of some constants that have moved, in tolerances."""
+    null, problem = creep.found.null, creep.found.problem
+    constants = tuple(one for one in problem.constants if one.path in moved)
+    point = Point(np.array([moved[one.path] for one in constants]))
+    found = replace(
+        creep.found,
+        problem=replace(problem, constants=constants),
+        null=replace(null, fit=replace(null.fit, point=point)),
+    )
+    gap = replace(creep.gaps[Signal.FORCE], before=17.7, recalibrated=4.86)
+    return replace(
+        creep, verdict=Verdict.NONE, named=(), found=found, gaps={Signal.FORCE: gap}
+    )
+
+
+def test_a_constant_that_moves_another_signal_is_not_what_closed_the_gap(
+    creep: Diagnosis,
+) -> None:
+    moved = {"muscle.diameter": 1.0, "valve.pressure_high": 1.5}
+    assert summary(nothing_missing(creep, moved)).startswith(
+        "Nothing is missing: once constants move (diameter 20.23 mm instead of 20 mm"
+        " first of all), what is left is noise; on data it never saw"
+    )
+
+
+def test_without_a_constant_that_could_move_only_noise_is_told(
+    creep: Diagnosis,
+) -> None:
+    assert summary(nothing_missing(creep, {"valve.pressure_high": 1.5})).startswith(
+        "Nothing is missing: what is left is noise; on data it never saw"
     )
 
 

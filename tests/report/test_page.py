@@ -219,6 +219,12 @@ def test_it_says_why_more_evidence_may_be_passed_over(
     assert "ahead by evidence alone" in written(replace(creep, contest=contest))
 
 
+def test_a_name_that_is_withdrawn_is_ahead_of_what_is_told(creep: Diagnosis) -> None:
+    text = written(replace(creep, verdict=Verdict.UNEXPLAINED))
+    assert "behind what came nearest [nat]" in text
+    assert "changes no reading by 0.5% of full scale" in text
+
+
 @pytest.mark.parametrize(("ahead", "said"), [(0.05, False), (0.2, True)])
 def test_a_tenth_of_a_nat_is_no_lead(
     creep: Diagnosis, ahead: float, said: bool
