@@ -86,7 +86,7 @@ def _covariance(diagnosis: Diagnosis) -> Covariance | None:
     names, places, scales = _fitted(diagnosis)
     if not names:
         return None
-    matrix = diagnosis.contest.best.fit.covariance[np.ix_(places, places)]
+    matrix = diagnosis.contest.best.fit.posterior[np.ix_(places, places)]
     scaled = matrix * np.outer(scales, scales)
     rows: Sequence[Sequence[float]] = scaled.tolist()
     return Covariance(

@@ -136,6 +136,7 @@ def rubbing(diagnosis: Diagnosis, value: float, std: float) -> Diagnosis:
     listed[index] = replace(listed[index], nominal=0.0, sigma=1.0)
     fit = contest.best.fit
     shifts, covariance = fit.point.shifts.copy(), fit.covariance.copy()
+    covariance[index] = covariance[:, index] = 0.0
     shifts[index], covariance[index, index] = value, std**2
     fitted = replace(
         fit, point=replace(fit.point, shifts=shifts), covariance=covariance

@@ -63,7 +63,21 @@ class Polished:
     """Samples by signal."""
     coordinates: tuple[Coordinate, ...]
     covariance: Array
-    """Of constants (in sigma) and coordinates (in units), shape ``(k, k)``."""
+    """Of constants (in sigma) and coordinates (in units), each shape held about where
+    it ended by a prior of half its value, shape ``(k, k)``."""
+
+    @property
+    def posterior(self) -> Array:
+        """Covariance of the same as data and tolerances alone leave them.
+
+        Of a shape nothing is known before but its limits: it is anywhere between.
+        """
+        known = np.linalg.inv(self.covariance)
+        first = len(known) - len(self.coordinates)
+        for place, one in enumerate(self.coordinates, first):
+            if not one.is_amplitude:
+                known[place, place] += 12 * (one.unit / (one.high - one.low)) ** 2 - 1
+        return np.asarray(np.linalg.inv(known), np.float64)
 
     @property
     def samples(self) -> int:

@@ -113,9 +113,9 @@ def _described(
 def _estimates(
     problem: Problem, rival: Rival, candidate: Candidate, effect: Effect | None
 ) -> dict[str, Estimate]:
-    """Fitted numbers with standard deviations from the covariance of the whole fit."""
+    """Fitted numbers with standard deviations, as the whole fit leaves them."""
     fit, point = rival.fit, rival.fit.point
-    variances = np.diag(fit.covariance)
+    variances = np.diag(fit.posterior)
     if effect is None:
         assert candidate.constant is not None
         constant = problem.constants[candidate.constant]

@@ -42,7 +42,7 @@ def recalibrated(problem: Problem, told: Rival) -> Iterator[Recalibrated]:
     told
         The explanation that was fitted with them.
     """
-    point, covariance = told.fit.point, told.fit.covariance
+    point, covariance = told.fit.point, told.fit.posterior
     stds = np.sqrt(np.diag(covariance)[: point.shifts.size]) * point.widths
     for constant, shift, std in zip(
         problem.constants, point.shifts.tolist(), stds.tolist(), strict=True

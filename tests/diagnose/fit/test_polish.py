@@ -128,6 +128,19 @@ def test_the_optimum_is_that_of_another_optimiser() -> None:
     )
 
 
+@pytest.mark.parametrize("sharp", [0.0, 1e-6, 25.0, 1e4])
+def test_a_shape_is_as_doubtful_as_data_and_its_limits_leave_it(sharp: float) -> None:
+    """Where data say nothing it is anywhere between these (a uniform law)."""
+    shape = Coordinate("creep", "fresh", 2e-3, 0.01, 1.0, is_amplitude=False)
+    size = Coordinate("creep", "fast", 0.1, 0.0, 1.0, is_amplitude=True)
+    held = np.diag([1 / (sharp + 1), 1 / (9.0 + 1)])
+    fit = Polished(Point(np.zeros(0)), 0.0, {}, {}, (shape, size), held)
+    alone = (1.0 - 0.01) / 12**0.5 / 2e-3
+    std = np.sqrt(np.diag(fit.posterior))
+    assert std[0] == pytest.approx((sharp + alone**-2) ** -0.5)
+    assert std[1] == pytest.approx(10**-0.5)
+
+
 def test_the_cost_is_misfit_plus_prior() -> None:
     problem = _problem(_off(diameter=0.0203))
     found = polished(problem, _start(problem))
