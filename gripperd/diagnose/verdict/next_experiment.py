@@ -25,8 +25,8 @@ from gripperd.model.track import Array
 
 SAMPLING = 0.1
 """Time between samples of a planned sweep. [s]"""
-FAR = (0.05, 0.22)
-"""Contraction that a plan goes to at least, and at most. [-]"""
+FAR = (0.1, 0.22)
+"""Contraction that a plan goes to at least, as any muscle does, and at most. [-]"""
 WORTH = 9.0
 """Rise of chi² below which a sweep does not tell the rivals apart: 3 sigma. [-]"""
 
@@ -70,16 +70,18 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
         Two explanations of it.
     """
     names = f"{_title(one, other)} from {_title(other, one)}"
+    top, far = _reach(problem, one)
     best: tuple[float, Sweep] | None = None
-    for sweep in _sweeps(problem):
+    for sweep in _sweeps(problem, top, far):
         gain = _separation(problem, sweep, one, other)
         rate = gain / float(sweep.time[-1])
         if gain > WORTH and (best is None or rate > best[0]):
             best = rate, sweep
     if best is None:
         why = (
-            f"no sweep of pressure and length tells {names}: measure one of them on"
-            " its own, or check the sensors with a reference"
+            f"no sweep up to {top / 1e3:.0f} kPa and a contraction of {far:.3g} tells"
+            f" {names}: go further, measure one of them on its own, or check the"
+            " sensors with a reference"
         )
         return Proposal(None, why, "", {})
     _, sweep = best
@@ -110,7 +112,7 @@ def _separation(problem: Problem, sweep: Sweep, one: Rival, other: Rival) -> flo
     gains = []
     for rival in (one, other):
         columns = slopes(planned, rival.fit.point, rival.fit.coordinates)
-        known = np.linalg.inv(rival.fit.covariance)
+        known = np.linalg.inv(rival.fit.posterior)
         moments = columns.T @ apart
         refit = np.linalg.solve(known + columns.T @ columns, moments)
         gains.append(float(apart @ apart - moments @ refit))
@@ -146,14 +148,20 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
     )  # fmt: skip
 
 
-def _sweeps(problem: Problem) -> Iterator[Sweep]:
-    """Sweeps any such rig can run: about as far as it was seen to go."""
+def _reach(problem: Problem, told: Rival) -> tuple[float, float]:
+    """How far a rig can go: as it was seen to, and as its regulator can. [Pa], [-]."""
     pressures = [c.level("pressure") for c in problem.courses]
     tops = [float(np.nanmax(p)) for p in pressures if np.isfinite(p).any()]
     top = max(tops, default=4e5)
+    if regulator := problem.explanation(told.fit.point).regulator:
+        top = min(top, regulator.pressure_high)
     lengths = [c.level("contraction") for c in problem.courses]
     longest = [float(np.nanmax(h)) for h in lengths if np.isfinite(h).any()]
-    far = float(np.clip(max(longest, default=0.2), *FAR))
+    return top, float(np.clip(max(longest, default=0.2), *FAR))
+
+
+def _sweeps(problem: Problem, top: float, far: float) -> Iterator[Sweep]:
+    """Sweeps any such rig can run, up to a pressure and a contraction."""
     for share in (0.0, 0.5, 1.0):
         for duration in (20.0, 60.0):
             yield _ramp(Kind.ISOMETRIC, top, share * far, duration)
