@@ -139,7 +139,8 @@ def _beyond(diagnosis: Diagnosis) -> dict[str, object] | None:
     if beyond is None:
         return None
     bars = [rows.gap_bars(diagnosis, gap) for gap in beyond.gaps.values()]
-    return {"runs": beyond.runs, "gaps": bars}
+    above = bool({*beyond.runs} & {*diagnosis.held_out})
+    return {"runs": beyond.runs, "gaps": bars, "above": above}
 
 
 def _yaml(plan: object) -> str:

@@ -97,8 +97,9 @@ def ranking(diagnosis: Diagnosis) -> Bars | None:
         for name, gain in gains
     )
     caption = (
-        "Gain of each candidate alone, in log odds (nat); noise alone passes the line"
-        " in one recording of a hundred"
+        "Gain of each candidate alone, in log odds (nat). Noise alone passes the line"
+        " in fewer than one recording of a hundred; an offset or a constant, which has"
+        " no form to choose, is believed from less"
     )
     return Bars(caption, lines, found.threshold / top)
 

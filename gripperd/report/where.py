@@ -93,8 +93,8 @@ def over_time(found: tuple[Trace, ...], column: Column, floor: float) -> Picture
     starts = np.cumsum([0.0, *(float(one.time[-1]) for one in found)])
     stride = max(1, sum(one.time.size for one in found) // DOTS)
     for one, start, end in zip(found, starts[:-1], starts[1:], strict=True):
-        if one.held_out.any():
-            axes.axvspan(start, end, color=MUTED, alpha=0.12, lw=0)
+        for left, right in _spans(one, float(end - start)):
+            axes.axvspan(start + left, start + right, color=MUTED, alpha=0.12, lw=0)
         parts = stretches(one.time, stride)
         for state in _shown(found):
             axes.plot(
@@ -114,7 +114,7 @@ def over_time(found: tuple[Trace, ...], column: Column, floor: float) -> Picture
         xlim=(starts[0], starts[-1]),
     )
     caption = (
-        "Measured minus predicted, sweep after sweep. Grey sweeps took no part in the"
+        "Measured minus predicted, sweep after sweep. What is grey took no part in the"
         " fit; lines are broken where samples are missing or passed over. The dotted"
         " lines are two standard deviations of the measurement itself."
         " Each sweep begins at the time below its left edge; where there is room, its"
@@ -122,6 +122,17 @@ def over_time(found: tuple[Trace, ...], column: Column, floor: float) -> Picture
     )
     alt = f"Residual over {starts[-1]:.0f} seconds in {len(found)} sweeps."
     return Picture("over_time", "Residual against time", caption, alt, drawing)
+
+
+def _spans(one: Trace, whole: float) -> list[tuple[float, float]]:
+    """Stretches of a sweep that took no part; all of it where no sample did. [s]."""
+    if one.held_out.all():
+        return [(0.0, whole)]
+    edges = np.flatnonzero(np.diff(one.held_out, prepend=False, append=False))
+    return [
+        (float(one.time[first]), float(one.time[last - 1]))
+        for first, last in edges.reshape(-1, 2).tolist()
+    ]
 
 
 def against_regressors(

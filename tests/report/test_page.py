@@ -260,7 +260,12 @@ def test_extrapolation_stands_apart_with_its_sweeps(
     beyond = Extrapolation(("fast_sweep",), {creep.main: gap})
     told = written(replace(creep, extrapolation=beyond))
     assert "fast_sweep" in told
+    assert "which the gap above leaves out" in told
+    both = Extrapolation(creep.held_out[:1], beyond.gaps)
     assert '<span class="value">77.7 N</span>' in told
+    told = written(replace(creep, extrapolation=both))
+    assert "which the gap above leaves out" not in told
+    assert "some of which the gap above has in it as well" in told
 
 
 def test_a_recording_that_contradicts_itself_gets_no_verdict_in_disguise(

@@ -62,6 +62,28 @@ def test_names_of_runs_are_no_formulas(found: tuple[Trace, ...]) -> None:
         picture.drawing.draw_without_rendering()
 
 
+def greyed(found: tuple[Trace, ...]) -> list[tuple[float, float]]:
+    (axes,) = over_time(found, BY_QUANTITY["force"], 3.0).drawing.axes
+    boxes = [one.get_window_extent() for one in axes.patches]
+    back = axes.transData.inverted()
+    ends = [back.transform([(one.x0, 0), (one.x1, 0)])[:, 0] for one in boxes]
+    return [(float(first), float(last)) for first, last in ends]
+
+
+def test_only_what_took_no_part_is_grey(found: tuple[Trace, ...]) -> None:
+    first, *rest = (
+        replace(one, held_out=np.zeros(one.time.size, bool)) for one in found
+    )
+    assert greyed((first, *rest)) == []
+    end = float(first.time[-1])
+    late = replace(first, held_out=first.time > 0.7 * end)
+    ((begin, last),) = greyed((late, *rest))
+    assert begin == pytest.approx(0.7 * end, rel=0.05)
+    assert last == pytest.approx(end)
+    whole = replace(first, held_out=np.ones(first.time.size, bool))
+    assert greyed((whole, *rest)) == [pytest.approx((0.0, end))]
+
+
 def drawn(axes: Axes) -> list[tuple[Array, Array]]:
     """Lines that follow samples, not those across the picture."""
     lines = [np.asarray(line.get_xydata(), float) for line in axes.get_lines()]
