@@ -184,7 +184,7 @@ def _judged(
     )
     points = (start, base, nearest)
     inside, outside = apart(parts)
-    judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
+    judged = gaps(inside, points, np.random.default_rng(seed))
     entries = named(found, best, _one_by_one(parts, inside, best, nearest))
     main = main_signal(best, judged)
     # That tolerances are too tight is one finding, however many constants it moves.
@@ -201,7 +201,7 @@ def _judged(
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
         points = (start, base, base)
-        judged = gaps(inside, points, train.noises, np.random.default_rng(seed))
+        judged = gaps(inside, points, np.random.default_rng(seed))
     if nothing := conclusion.verdict is Verdict.NONE:
         entries = ()
     if unexplained := conclusion.verdict is Verdict.UNEXPLAINED:
@@ -235,10 +235,7 @@ def _one_by_one(
         with_fitted_state(parts, place.without.fit.point) for place in best.places
     )
     rng = np.random.default_rng(0)
-    return [
-        gaps(inside, (other, other, nearest), parts.train.noises, rng)
-        for other in others
-    ]
+    return [gaps(inside, (other, other, nearest), rng) for other in others]
 
 
 def _without_verdict(

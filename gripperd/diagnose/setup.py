@@ -12,6 +12,7 @@ from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.constants import constants
 from gripperd.diagnose.residuals.explanation import AtRest, Explanation
+from gripperd.diagnose.residuals.heard import with_heard_lengths
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.loudness import audible, noises_of
 from gripperd.diagnose.residuals.plausible import check_judged, check_plausible
@@ -22,6 +23,8 @@ from gripperd.model.effect import Signal
 
 SLACK = 4.5
 """Standard deviations below which a force is not told from none."""
+ROUNDS = 2
+"""After so many a noise changes by less than a millionth. [-]"""
 MOST_SLACK = 0.125
 """Share of the largest force from which a muscle is taut, whatever the noise. [-]"""
 
@@ -66,14 +69,26 @@ def problem_of(
         scales[Signal.CONTRACTION] = 1.0
     resting = [i for i, sweep in enumerate(sweeps) if (sweep.direction == 0).sum() > 3]
     listed = constants(model, tolerances, scales, resting)
+    start = Point(np.zeros(len(listed)))
     problem = replace(rough, constants=listed)
+    problem = with_heard_lengths(problem, split(problem).train, start)
     for _ in range(2):
         train = split(problem).train
-        null = polished(train, Point(np.zeros(len(listed)))).point
-        problem = replace(
-            problem, noises=loud | noises_of(train, null, recording.noise)
-        )
+        null = polished(train, start).point
+        problem = replace(problem, noises=_settled(train, null, loud, recording.noise))
     return problem
+
+
+def _settled(
+    train: Problem,
+    null: Point,
+    loud: Mapping[Signal, Noise],
+    stated: Mapping[str, float],
+) -> Mapping[Signal, Noise]:
+    """Noise by signal: what a length makes of a force is held against the noise."""
+    for _ in range(ROUNDS):
+        train = replace(train, noises={**loud, **noises_of(train, null, stated)})
+    return train.noises
 
 
 def _slack(sweeps: tuple[Course, ...], noises: Mapping[Signal, Noise]) -> float:

@@ -129,7 +129,7 @@ def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:
         for one in (diagnosis.nominal, diagnosis.recalibrated, point)
     )
     draws = np.random.default_rng(diagnosis.seed)
-    judged = gaps(apart(split)[0], (start, base, kept), split.train.noises, draws)
+    judged = gaps(apart(split)[0], (start, base, kept), draws)
     if signal is None or signal not in judged:
         message = "nothing to apply: no data were left out to confirm it on"
         raise Refused(message, code="not-confirmed")

@@ -234,7 +234,7 @@ def pinned(problem: Problem, *open_paths: str) -> Problem:
 
 
 def undoubted(problem: Problem) -> Problem:
-    """The same, its smooth pressures taken for known: but for the noise of the force.
+    """The same, pressures and lengths taken for known: but for the noise of the force.
 
     Then the covariance of a residual is that of the noise alone.
     """
@@ -243,7 +243,10 @@ def undoubted(problem: Problem) -> Problem:
             course,
             smooth={
                 **course.smooth,
-                "pressure": course.smooth["pressure"]._replace(doubt=0.0),
+                **{
+                    name: course.smooth[name]._replace(doubt=0.0)
+                    for name in ("pressure", "length")
+                },
             },
         )
         for course in problem.courses

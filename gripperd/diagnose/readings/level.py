@@ -99,9 +99,11 @@ def _tried(name: str) -> Array:
 
 def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
     """Contraction whose corners stay sharp, at the price of some noise."""
-    variance = noises["contraction"].slow_variance
+    noise = noises["contraction"]
     time, contraction = sweep.columns["time"], sweep.columns["contraction"]
-    return smooth(time, contraction, variance, SUPPLE, tried=OF_LENGTH)
+    found = smooth(time, contraction, noise.slow_variance, SUPPLE, tried=OF_LENGTH)
+    # No trend is further off than the reading that it follows.
+    return found._replace(doubt=np.minimum(found.doubt, noise.std))
 
 
 def _steady(sweep: Run, known: Smooth) -> Smooth:

@@ -1,17 +1,22 @@
-"""Doubt of a prediction: what is not known of the smooth pressure it starts from.
+"""Doubt of a prediction: what is not known of the pressure and length it starts from.
 
 Where a pressure swings within a few samples no trend tells its noise from its way, and
 what is wrong there is wrong in the force many times over. The usual doubt is part of
 what is left of a force anyway, and so of its noise; more than that is not.
+
+A length that travels is taken as it was read, for its corners. Its noise comes beside
+that of the force, and where the muscle is held it does not.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.stages import at_once
 from gripperd.diagnose.residuals.track import track_of
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -32,15 +37,18 @@ def own_shares(
     courses
         The sweeps.
     blocks
-        Readings to explain; of them only a force follows from a smooth pressure.
+        Readings to explain; of them only a force follows from a pressure and a length
+        that are read otherwise in one sweep than in another.
     stds
         Of the noise of one reading, block by block. [SI]
 
     Returns
     -------
-    Block by block: 1 where the pressure is known as well as usual. [-]
+    Block by block: 1 where the pressure is known as well as usual, and the length
+    exactly. [-]
     """
-    handed = [_handed_on(model, courses[block.course], block) for block in blocks]
+    handed = [_of_pressure(model, courses[block.course], block) for block in blocks]
+    lengths = [of_length(model, courses[block.course], block) for block in blocks]
     forces = [
         one
         for one, block in zip(handed, blocks, strict=True)
@@ -48,14 +56,37 @@ def own_shares(
     ]
     usual = float(np.median(np.concatenate(forces))) if forces else 0.0
     return [
-        np.hypot(std, usual) / np.hypot(std, np.maximum(one, usual))
-        for one, std in zip(handed, stds, strict=True)
+        np.hypot(std, usual)
+        / np.sqrt(std**2 + np.maximum(pressure, usual) ** 2 + length**2)
+        for pressure, length, std in zip(handed, lengths, stds, strict=True)
     ]
 
 
-def _handed_on(model: Explanation, course: Course, block: Block) -> Array:
+def of_length(model: Explanation, course: Course, block: Block) -> Array:
+    """Standard deviation of a force that the noise of a length makes. [N].
+
+    Parameters
+    ----------
+    model
+        Whose slope turns a contraction into a force.
+    course, block
+        A sweep, and readings of it; 0 of any but a force.
+    """
+    if _is_other(course, block):
+        return np.zeros(int(block.good.sum()))
+    track = track_of(model, course, block.course)
+    aside = replace(track, contraction=track.contraction + course.doubt("length"))
+    here, there = (at_once(model, one, Signal.FORCE) for one in (track, aside))
+    return np.nan_to_num(np.abs(there - here))[block.good]
+
+
+def _of_pressure(model: Explanation, course: Course, block: Block) -> Array:
     """Standard deviation of a force that a doubtful pressure makes. [N]."""
-    if block.signal is not Signal.FORCE or is_table((course,)):
+    if _is_other(course, block):
         return np.zeros(int(block.good.sum()))
     area = track_of(model, course, block.course).pull_area
     return np.nan_to_num(np.abs(area) * course.doubt("pressure"))[block.good]
+
+
+def _is_other(course: Course, block: Block) -> bool:
+    return block.signal is not Signal.FORCE or is_table((course,))

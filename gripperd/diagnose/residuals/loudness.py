@@ -10,6 +10,7 @@ from gripperd.diagnose.noise.drift import shortened, with_drift
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
+from gripperd.diagnose.residuals.doubt import of_length
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.quiet import driven, repeated, vented
@@ -54,7 +55,7 @@ def noises_of(
     for signal in problem.signals:
         indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
         step = coarse_step(c.column(signal.value) for c in problem.courses)
-        noise = quick_noise((residuals[i] for i in indices), step)
+        noise = quick_noise((_share(problem, i) * residuals[i] for i in indices), step)
         if signal is Signal.PRESSURE:
             noise = _on_stairs(problem.courses) or noise
         if is_table(problem.courses):
@@ -69,6 +70,14 @@ def noises_of(
         quiet = shortened(quiet or repeated(*asked, first=True))
         found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
     return _handed_on(found, problem)
+
+
+def _share(problem: Problem, index: int) -> float:
+    """Share of the noise of a sweep that is not of its length, as a deviation. [-]."""
+    block = problem.blocks[index]
+    made = of_length(problem.model, problem.courses[block.course], block)
+    own = problem.noises[block.signal].std ** 2
+    return float(np.sqrt(own / (own + np.mean(made**2))))
 
 
 def _on_stairs(sweeps: Sequence[Course]) -> Noise | None:

@@ -215,7 +215,7 @@ class Problem:
 
     def white(self, columns: Sequence[Array], index: int) -> Array:
         """Whiten columns of one block, shape ``(n, k)``."""
-        shared = self._shares[index][:, None] * np.column_stack(columns)
+        shared = self.shares[index][:, None] * np.column_stack(columns)
         return innovations(shared, self._laws[index])
 
     @cached_property
@@ -227,10 +227,20 @@ class Problem:
         ]
 
     @cached_property
-    def _shares(self) -> list[Array]:
+    def shares(self) -> list[Array]:
         """What :func:`own_shares` gives, block by block."""
         stds = [(block.noise or self.noises[block.signal]).std for block in self.blocks]
         return own_shares(self.model, self.courses, self.blocks, stds)
+
+    def floor(self, signal: Signal) -> float:
+        """Root mean square that repeated readings of a signal are apart. [SI]."""
+        noise = self.noises[signal]
+        stds = [
+            noise.std / share
+            for block, share in zip(self.blocks, self.shares, strict=True)
+            if block.signal is signal
+        ]
+        return float(np.hypot(np.sqrt(np.mean(np.concatenate(stds) ** 2)), noise.drift))
 
     @cached_property
     def zeros(self) -> list[Array]:

@@ -213,11 +213,24 @@ def passed_on(
     if signal is Signal.GRIP:
         beside = course.column("force") - course.level("force")
         sharp = replace(sharp, force=track.force + beside)
-    rough = [_START[signal](explanation, one) for one in (sharp, track)]
+    rough = (at_once(explanation, one, signal) for one in (sharp, track))
+    return np.nan_to_num(next(rough) - next(rough))
+
+
+def at_once(explanation: Explanation, track: Runs, signal: Signal) -> Array:
+    """What follows without memory, as a signal that may be rough is passed on. [SI].
+
+    Parameters
+    ----------
+    explanation
+        What is thought to act.
+    track
+        What happened.
+    signal
+        That which is made.
+    """
+    value = _START[signal](explanation, track)
     for effect in explanation.effects:
         if effect.signal is signal and not effect.rest().size:
-            rough = [
-                effect.along(value, one, effect.rest())
-                for value, one in zip(rough, (sharp, track), strict=True)
-            ]
-    return np.nan_to_num(rough[0] - rough[1])
+            value = effect.along(value, track, effect.rest())
+    return value

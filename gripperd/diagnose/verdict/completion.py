@@ -99,7 +99,7 @@ def _compared(parts: Split, inside: Problem, told: Rival, more: Rival) -> list[G
     """Gaps of what was left out, from one explanation to another."""
     here, there = (with_fitted_state(parts, one.fit.point) for one in (told, more))
     draws = np.random.default_rng(0)
-    judged = gaps(inside, (here, here, there), parts.train.noises, draws)
+    judged = gaps(inside, (here, here, there), draws)
     return list(judged.values())
 
 

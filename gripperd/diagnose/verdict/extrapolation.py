@@ -68,7 +68,7 @@ def extrapolation(
     """
     if outside is None:
         return None
-    judged = gaps(outside, points, parts.train.noises, np.random.default_rng(seed))
+    judged = gaps(outside, points, np.random.default_rng(seed))
     return Extrapolation(swept(parts, outside), judged)
 
 

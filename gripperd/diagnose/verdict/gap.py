@@ -6,12 +6,11 @@ References
        dependent data", Biometrika 82(3), 561-574, 1995.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.dead_band import UNIFORM
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -109,7 +108,6 @@ class Gap:
 def gaps(
     test: Problem,
     points: Sequence[Point],
-    noises: Mapping[Signal, Noise],
     rng: np.random.Generator,
 ) -> dict[Signal, Gap]:
     """Judge three points by sweeps that were left out.
@@ -120,8 +118,6 @@ def gaps(
         The sweeps that were left out.
     points
         The model as it came, with the best constants, and with the effects.
-    noises
-        Of each signal.
     rng
         For the interval.
     """
@@ -132,7 +128,7 @@ def gaps(
             _rms(before[signal]),
             _rms(recalibrated[signal]),
             _rms(after[signal]),
-            noises[signal].floor,
+            test.floor(signal),
             _interval(after[signal], rng),
             UNIFORM * test.band if signal is Signal.PRESSURE else 0.0,
         )

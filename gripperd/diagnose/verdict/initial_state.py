@@ -79,7 +79,7 @@ def _misfits(problem: Problem, point: Point) -> dict[int, float]:
     found: dict[int, float] = {}
     residuals = problem.residuals(point)
     for block, residual in zip(problem.blocks, residuals, strict=True):
-        squares = np.sum((residual / problem.noises[block.signal].floor) ** 2)
+        squares = np.sum((residual / problem.floor(block.signal)) ** 2)
         found[block.course] = found.get(block.course, 0.0) + float(squares)
     return found
 

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripperd.diagnose.readings.course import Course
-from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -63,8 +62,8 @@ def findings(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...
     """
     cells = [
         cell
-        for block, residual in zip(problem.blocks, residuals, strict=True)
-        for cell in _cells(problem, block, residual)
+        for index, residual in enumerate(residuals)
+        for cell in _cells(problem, index, residual)
     ]
     order = np.argsort([cell.p_value for cell in cells])
     kept: list[Finding] = []
@@ -80,13 +79,15 @@ def findings(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...
     return tuple(sorted(joined, key=lambda one: -abs(one.bias) / scale[one.signal]))
 
 
-def _cells(problem: Problem, block: Block, residual: Array) -> Iterator[Finding]:
+def _cells(problem: Problem, index: int, residual: Array) -> Iterator[Finding]:
+    block, shares = problem.blocks[index], problem.shares[index]
     course = problem.courses[block.course]
     noise = problem.noises[block.signal]
     chosen = np.flatnonzero(block.good)
     pieces = min(PIECES, residual.size // FEWEST)
     for piece in np.array_split(np.arange(residual.size), pieces) if pieces else ():
-        slow = noise.slow_variance / piece.size + noise.drift**2
+        loud = noise.slow_variance * np.mean(1 / shares[piece] ** 2)
+        slow = loud / piece.size + noise.drift**2
         std = float(np.sqrt(slow))
         bias = float(np.mean(residual[piece]))
         p_value = float(erfc(abs(bias) / std / 2**0.5))

@@ -67,7 +67,7 @@ def test_unbent_an_explanation_leaves_what_its_fit_left(
 ) -> None:
     # Signs of friction at rest that end at 1 have nowhere to go from there.
     def both(moment: Moment) -> Array:
-        return threshold(60.0)(moment) - 30.0 * moment.direction
+        return threshold(40.0)(moment) - 30.0 * moment.direction
 
     problem = problem_of(recording(both), MODEL, {})
     rival = fitted(problem, *(Candidate(one.name, one) for one in effects))

@@ -47,6 +47,14 @@ def test_a_length_that_is_moved_quickly_is_followed() -> None:
     assert np.sqrt(np.mean((course.level("length") - way) ** 2)) < 6e-4
 
 
+def test_a_length_is_no_less_known_than_each_reading_of_it() -> None:
+    """Of noise with a memory a mean is known less well than of noise without."""
+    way = triangle(2000, 0.0, 0.15)
+    (course,) = cut(run(contraction=way + noise(2000, 1e-3, memory=0.6)))
+    wrong = np.std(course.level("length") - way)
+    assert wrong < np.max(course.doubt("length")) < 1.1e-3
+
+
 @pytest.mark.parametrize("half", [5e3, 8e3, 12e3, 20e3])
 @pytest.mark.parametrize("came", [-1.0, 0.0, 1.0])
 def test_pressure_keeps_the_corners_of_a_dead_band(half: float, came: float) -> None:

@@ -103,3 +103,52 @@ def test_where_all_is_as_doubtful_the_noise_holds_it_already(
     alone = _shares({"swings": sweeps["swings"]}, Signal.FORCE)["swings"]
     assert np.median(alone) == pytest.approx(1.0)
     assert np.quantile(alone, 0.1) > 0.9
+
+
+LOUD = 2e-3
+"""Noise of a contraction: 0.6 mm on 300 mm. [-]"""
+
+
+def _lengths() -> dict[str, Course]:
+    """One pressure: a length that goes there and back, and one that is held."""
+    rng = np.random.default_rng(7)
+    way = 0.15 * (1 - np.abs(TIME / 20.0 - 1))
+    runs = [
+        Run(
+            name,
+            {
+                "time": start + TIME,
+                "pressure": np.full_like(TIME, 300e3),
+                "contraction": length + rng.normal(0.0, LOUD, TIME.size),
+                "force": rng.normal(0.0, QUIET.std, TIME.size),
+            },
+        )
+        for start, name, length in (
+            (0.0, "travels", way),
+            (100.0, "held", np.full_like(TIME, 0.08)),
+        )
+    ]
+    found, _ = courses(Recording("loud", "0" * 64, tuple(runs)), 0.3)
+    return {course.run: course for course in found}
+
+
+def test_a_length_that_travels_makes_a_force_as_doubtful_as_its_slope() -> None:
+    sweeps, muscle = _lengths(), BLADDERLESS.muscle
+    way = 0.15 * (1 - np.abs(TIME / 20.0 - 1))
+    # The slope of eq. (4) over the contraction.
+    slope = 300e3 * np.pi * muscle.diameter**2 / 4 * (
+        6 * (1 - way) / np.tan(muscle.braid_angle) ** 2
+    )  # fmt: skip
+    share = _shares(sweeps, Signal.FORCE)["travels"]
+    told = QUIET.std * np.sqrt(1 / share**2 - 1)
+    wrong = slope * (sweeps["travels"].level("length") - way)
+    assert np.std(wrong) > 1.5 * QUIET.std
+    assert np.std(wrong) < np.sqrt(np.mean(told**2)) < 1.4 * np.std(wrong)
+
+
+def test_a_length_that_is_held_is_known_well() -> None:
+    assert _shares(_lengths(), Signal.FORCE)["held"].min() > 0.9
+
+
+def test_a_length_says_nothing_of_how_well_a_pressure_is_known() -> None:
+    assert (_shares(_lengths(), Signal.PRESSURE)["travels"] == 1.0).all()

@@ -23,6 +23,7 @@ from tests.diagnose.small import (
     Hidden,
     Moment,
     altered,
+    nothing,
     recording,
     rubbing,
     tabled,
@@ -42,6 +43,19 @@ def test_the_noise_of_each_signal_is_measured(blank: Problem) -> None:
     assert force.std == pytest.approx(FORCE_NOISE, rel=0.2)
     assert pressure.std == pytest.approx(PRESSURE_NOISE, rel=0.2)
     assert max(force.correlation, pressure.correlation) < 0.2
+
+
+def test_a_length_that_is_read_badly_does_not_make_the_force_loud() -> None:
+    """Of isobars it makes most of what is left, and nothing where a length is held."""
+    rng = np.random.default_rng(17)
+    every = [run.name for run in recording(nothing).runs]
+    loud = altered(
+        recording(nothing), every, "contraction",
+        lambda held: held + rng.normal(0.0, 2e-3, held.size),
+    )  # fmt: skip
+    problem = problem_of(loud, MODEL, {})
+    assert problem.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.25)
+    assert problem.floor(Signal.FORCE) > 1.3 * FORCE_NOISE
 
 
 def test_a_converter_of_coarse_steps_is_no_quieter_than_its_steps() -> None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
@@ -138,24 +139,32 @@ def test_loosened_tolerances_were_searched_no_further(blank: Problem) -> None:
     assert blank.reach(looser)[0] == blank.reach(start)[0]
 
 
-def test_a_force_that_follows_from_a_doubtful_pressure_weighs_as_much_less(
-    blank: Problem, start: Point
-) -> None:
-    std, doubt = 2.0, 10e3
-    alone = replace(
-        undoubted(blank), noises={**blank.noises, Signal.FORCE: Noise(std, 0.0)}
-    )
-    place = next(i for i, course in enumerate(alone.courses) if course.run == "a")
-    courses = list(alone.courses)
+def _doubtful(blank: Problem, noise: Noise) -> tuple[Problem, Problem, float]:
+    """One whose inputs are known, one without one pressure, and what that does. [N]."""
+    alone = replace(undoubted(blank), noises={**blank.noises, Signal.FORCE: noise})
+    doubt, courses = 10e3, list(alone.courses)
+    place = next(i for i, course in enumerate(courses) if course.run == "a")
     pressure = courses[place].smooth["pressure"]
     smooth = {**courses[place].smooth, "pressure": pressure._replace(doubt=doubt)}
     courses[place] = replace(courses[place], smooth=smooth)
-    doubtful = replace(alone, courses=tuple(courses))
     handed = doubt * float(moments()["a"].pull_area[0])
+    return alone, replace(alone, courses=tuple(courses)), handed
+
+
+def _is_doubtful(problem: Problem, block: Block) -> bool:
+    course = problem.courses[block.course]
+    return course.run == "a" and block.signal is Signal.FORCE
+
+
+def test_a_force_that_follows_from_a_doubtful_pressure_weighs_as_much_less(
+    blank: Problem, start: Point
+) -> None:
+    std = 2.0
+    alone, doubtful, handed = _doubtful(blank, Noise(std, 0.0))
     for index, (block, left) in enumerate(
         zip(alone.blocks, alone.residuals(start), strict=True)
     ):
-        least = block.course == place and block.signal is Signal.FORCE
+        least = _is_doubtful(alone, block)
         weight = std / np.hypot(std, handed) if least else 1.0
         np.testing.assert_allclose(
             doubtful.white([left], index),
@@ -163,3 +172,17 @@ def test_a_force_that_follows_from_a_doubtful_pressure_weighs_as_much_less(
             rtol=0.02,
             atol=1e-6,
         )
+
+
+def test_the_floor_is_that_of_all_that_is_compared(blank: Problem) -> None:
+    alone, doubtful, handed = _doubtful(blank, Noise(3.0, 0.5, 4.0))
+    assert alone.floor(Signal.FORCE) == pytest.approx(5.0)
+    forces = [block for block in alone.blocks if block.signal is Signal.FORCE]
+    counts = [int(block.good.sum()) for block in forces]
+    own = [handed if _is_doubtful(alone, block) else 0.0 for block in forces]
+    added = np.average(np.square(own), weights=counts)
+    assert doubtful.floor(Signal.FORCE) == pytest.approx(
+        (25.0 + added) ** 0.5, rel=0.01
+    )
+    pressure = doubtful.noises[Signal.PRESSURE]
+    assert doubtful.floor(Signal.PRESSURE) == pytest.approx(pressure.floor)

@@ -11,6 +11,7 @@ from gripperd.diagnose.fit.rival import Rival, added
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import (
+    EVEN,
     SURE,
     Contest,
     Place,
@@ -176,7 +177,7 @@ def test_rivals_come_best_first_and_none_beats_the_best(problem: Problem) -> Non
     evidence = [one.evidence for one in place.rivals]
     assert len(evidence) == 2
     assert evidence == sorted(evidence, reverse=True)
-    assert max(evidence) <= decided.best.evidence + 1e-6
+    assert max(evidence) <= decided.best.evidence + EVEN
 
 
 @pytest.mark.parametrize(("share", "kept"), [(0.04, True), (0.06, False)])

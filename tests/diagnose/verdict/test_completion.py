@@ -1,11 +1,10 @@
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
-from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -88,10 +87,9 @@ def test_what_spoils_another_signal_is_not_added(
     def spoilt(
         test: Problem,
         points: Sequence[Point],
-        noises: Mapping[Signal, Noise],
         rng: np.random.Generator,
     ) -> dict[Signal, Gap]:
-        found = gaps(test, points, noises, rng)
+        found = gaps(test, points, rng)
         pressure = found[Signal.PRESSURE]
         worse = 3 * pressure.recalibrated
         return found | {Signal.PRESSURE: replace(pressure, ci95_after=(worse, worse))}

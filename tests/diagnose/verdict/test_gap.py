@@ -15,6 +15,7 @@ from gripperd.diagnose.verdict.gap import (
 )
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
+from tests.diagnose.small import undoubted
 
 NOISES = {Signal.FORCE: Noise(3.0, 0.0, drift=4.0), Signal.PRESSURE: Noise(1e3, 0.0)}
 
@@ -29,9 +30,9 @@ def judged(blank: Problem) -> tuple[Problem, dict[Signal, Gap]]:
     points = tuple(
         start.with_effect(ForceSensorBias(bias=b)) for b in (40.0, 20.0, 0.0)
     )
-    test = split(blank).test
+    test = replace(split(undoubted(blank)).test, noises=NOISES)
     one, other, last = points
-    return test, gaps(test, (one, other, last), NOISES, np.random.default_rng(0))
+    return test, gaps(test, (one, other, last), np.random.default_rng(0))
 
 
 @pytest.mark.parametrize(
@@ -125,7 +126,7 @@ def test_the_interval_holds_the_gap_and_is_no_point(
 def test_the_interval_is_about_as_wide_as_chi_square_says(blank: Problem) -> None:
     known = Point(np.zeros(len(blank.constants)))
     plain = replace(blank, constants=())
-    found = gaps(plain, (Point(np.zeros(0)),) * 3, NOISES, np.random.default_rng(1))[
+    found = gaps(plain, (Point(np.zeros(0)),) * 3, np.random.default_rng(1))[
         Signal.PRESSURE
     ]
     samples = by_signal(blank, known)[Signal.PRESSURE].size
@@ -137,9 +138,7 @@ def test_the_interval_is_about_as_wide_as_chi_square_says(blank: Problem) -> Non
 
 def test_the_same_draws_give_the_same_interval(blank: Problem) -> None:
     start = Point(np.zeros(len(blank.constants)))
-    one, other = (
-        gaps(blank, (start,) * 3, NOISES, np.random.default_rng(5)) for _ in range(2)
-    )
+    one, other = (gaps(blank, (start,) * 3, np.random.default_rng(5)) for _ in range(2))
     assert one == other
 
 

@@ -9,6 +9,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.verdict.where import LEVEL, PIECES, findings
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from tests.diagnose.small import moments, undoubted
 from tests.diagnose.sweep import noise
 
 STD, DRIFT = 3.0, 1.0
@@ -16,7 +17,8 @@ STD, DRIFT = 3.0, 1.0
 
 @pytest.fixture(scope="module")
 def plain(blank: Problem) -> Problem:
-    return replace(blank, noises={Signal.FORCE: Noise(STD, 0.0, drift=DRIFT)})
+    loud = {Signal.FORCE: Noise(STD, 0.0, drift=DRIFT)}
+    return replace(undoubted(blank), noises=loud)
 
 
 def _quiet(problem: Problem, seed: int = 0) -> list[Array]:
@@ -67,6 +69,29 @@ def test_the_standard_error_holds_noise_and_drift(plain: Problem) -> None:
         if plain.courses[block.course].run == "d"
     }
     assert found.std == pytest.approx((STD**2 / samples + DRIFT**2) ** 0.5)
+
+
+def test_the_standard_error_holds_what_the_inputs_are_not_known_by(
+    plain: Problem,
+) -> None:
+    courses = [
+        replace(
+            course,
+            smooth={
+                **course.smooth,
+                "pressure": course.smooth["pressure"]._replace(doubt=20e3),
+            },
+        )
+        if course.run == "d"
+        else course
+        for course in plain.courses
+    ]
+    doubtful = replace(plain, courses=tuple(courses))
+    off = _off(plain, "d", 0, 0, 60, 0, 0, 0, 0, 0)
+    (found,), (known,) = findings(doubtful, off), findings(plain, off)
+    pressed = np.array_split(20e3 * moments()["d"].pull_area, PIECES)[2]
+    told = (found.std**2 - known.std**2) * pressed.size
+    assert told == pytest.approx(np.mean(pressed**2), rel=0.1)
 
 
 def test_neighbours_that_are_off_the_same_way_are_one(plain: Problem) -> None:
