@@ -39,7 +39,7 @@ from gripperd.diagnose.verdict.extrapolation import (
     extrapolation,
     swept,
 )
-from gripperd.diagnose.verdict.gap import Gap, gaps
+from gripperd.diagnose.verdict.gap import Gap, beside_drift, gaps
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.diagnose.verdict.judged import (
     bearing_signal,
@@ -197,7 +197,7 @@ def _judged(
     if against or (gap and not gap.confirms(effects, exact=exact)):
         is_open = bool(imitated) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
-    conclusion = not_closed(train, conclusion, judged)
+    conclusion = not_closed(train, conclusion, judged, beside_drift(inside, base))
     if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
         # Nothing is added to the model, so better constants are all there is.
         points = (start, base, base)

@@ -421,6 +421,23 @@ def test_where_something_slipped_it_is_never_nothing(
     assert "force: jumps by -4.0 N at 200 s, and stays" in found.signature
 
 
+@pytest.mark.parametrize(
+    ("share", "verdict"), [(0.005, Verdict.NONE), (0.02, Verdict.UNEXPLAINED)]
+)
+def test_a_sensor_may_have_drifted_in_a_sweep_left_out(
+    told: Diagnosis, share: float, verdict: Verdict
+) -> None:
+    """By 0.2 % of full scale (sd) common ones do, and nothing is missing for that."""
+    off = share * told.split.train.full_scale[Signal.FORCE]
+    drifted = altered(
+        recording(nothing), told.held_out, "force", lambda force: force + off
+    )
+    found = diagnose(drifted, MODEL, {}, {})
+    assert found.held_out == told.held_out
+    assert found.gaps[Signal.FORCE].is_open
+    assert found.verdict is verdict
+
+
 def test_what_is_unexplained_is_told_of_the_signal_in_which_it_shows() -> None:
     """A name for the force, whose gap it closes, and a pressure that no name has."""
     told = altered(

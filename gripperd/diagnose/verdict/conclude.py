@@ -11,7 +11,7 @@ from gripperd.diagnose.residuals.holdout import FEW
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
-from gripperd.diagnose.verdict.gap import Gap
+from gripperd.diagnose.verdict.gap import REACHED, Gap
 from gripperd.diagnose.verdict.structure import Structure, loudness, structures
 from gripperd.model.effect import Signal
 
@@ -109,12 +109,15 @@ def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
 
 
 def not_closed(
-    problem: Problem, conclusion: Conclusion, judged: Mapping[Signal, Gap]
+    problem: Problem,
+    conclusion: Conclusion,
+    judged: Mapping[Signal, Gap],
+    steady: Mapping[Signal, float],
 ) -> Conclusion:
     """Withdraw that nothing is missing where sweeps which took no part are off.
 
     What happened in them alone no other can tell. Where but the end of each is left
-    out, it goes where none of them has been.
+    out, it goes where none of them has been. A sensor that drifts is off as well.
 
     Parameters
     ----------
@@ -124,11 +127,15 @@ def not_closed(
         With a verdict.
     judged
         Gaps on what was left out.
+    steady
+        The same with the best constants, but for the drift of sensors. [SI]
     """
     left_out = {
         signal: gap.left_open
         for signal, gap in judged.items()
-        if gap.is_open and gap.recalibrated > VISIBLE * problem.full_scale[signal]
+        if gap.is_open
+        and steady[signal] > REACHED * gap.reachable
+        and gap.recalibrated > VISIBLE * problem.full_scale[signal]
     }
     are_whole = len(problem.courses) >= FEW
     if conclusion.verdict is not Verdict.NONE or not (left_out and are_whole):

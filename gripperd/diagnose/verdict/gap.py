@@ -32,6 +32,9 @@ REACHED = 1.3
 """Gap over the noise floor up to which nothing more can be asked. [-]"""
 LEAST_CLOSED = 0.45
 """Share of a gap well above the noise that effects close at least. [-]"""
+DRIFTS = 0.006
+"""How far a sound sensor is off in a sweep, of full scale: common ones drift by 0.2 %
+(sd), and seldom by three times that. [-]"""
 CROWD = 2
 """More effects at once are held to the two limits that follow, constants alone to the
 latter, unless it is their tolerances that are wrong."""
@@ -134,6 +137,26 @@ def gaps(
         )
         for signal in after
     }
+
+
+def beside_drift(test: Problem, point: Point) -> dict[Signal, float]:
+    """Root mean square of each signal, but for the drift of its sensor. [SI].
+
+    Of each sweep as much is taken off as a sound sensor may have drifted by then.
+
+    Parameters
+    ----------
+    test
+        The sweeps that were left out.
+    point
+        The model.
+    """
+    found: dict[Signal, list[Array]] = {}
+    for block, residual in zip(test.blocks, test.residuals(point), strict=True):
+        most = DRIFTS * test.full_scale[block.signal]
+        steady = residual - np.clip(np.mean(residual), -most, most)
+        found.setdefault(block.signal, []).append(steady)
+    return {signal: _rms(np.concatenate(pieces)) for signal, pieces in found.items()}
 
 
 def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:
