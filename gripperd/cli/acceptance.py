@@ -6,7 +6,7 @@ from pathlib import Path
 from gripperd import __version__
 from gripperd.cli.parentage import parent_of
 from gripperd.config import ModelFile
-from gripperd.config.lineage import Added
+from gripperd.config.lineage import Added, Gap
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.store.improvement import improvement
@@ -36,9 +36,23 @@ def accept(found: Diagnosis, model: ModelFile, config: Path | None) -> list[str]
             better.model, parent=number, created_at=datetime.now(UTC), provenance=made
         )
     lines = [f"{word} as {version.name}: {version.model.source}"]
+    if made.gap is not None:
+        lines.append(_gap(made.gap))
     if moved := ", ".join(map(_moved, made.refitted)):
         lines.append(f"with it these constants moved: {moved}")
     return [*lines, parent.way_to(version)]
+
+
+def _gap(gap: Gap) -> str:
+    """Write how far the version is off, which leaves the zeros of the rig out."""
+    before, after, floor = (
+        f"{size:.3g} {gap.unit}"
+        for size in (gap.rmse_before, gap.rmse_after, gap.noise_floor)
+    )
+    return (
+        f"by itself, without zeros and delays of this rig, its {gap.signal} is off by"
+        f" {after} on held-out runs instead of {before}, and repeats by {floor}"
+    )
 
 
 def _moved(constant: Added) -> str:

@@ -115,10 +115,19 @@ def _check_named(diagnosis: Diagnosis) -> None:
 
 
 def _kept(diagnosis: Diagnosis) -> Point:
-    """What was found without what belongs to the rig of the recording."""
-    point = diagnosis.explained
-    owned = [is_owned(one) for one in diagnosis.found.problem.constants]
-    return replace(point, shifts=np.where(owned, point.shifts, 0.0))
+    """What was found without what belongs to the rig of the recording.
+
+    No recording tells the zero of an opening from the width of open jaws, so that the
+    width is told by the sensor that there is.
+    """
+    point, constants = diagnosis.explained, diagnosis.found.problem.constants
+    shifts = np.where([is_owned(one) for one in constants], point.shifts, 0.0)
+    places = {one.path: place for place, one in enumerate(constants)}
+    if {"zero.opening", "gripper.open_width"} <= places.keys():
+        zero, width = places["zero.opening"], places["gripper.open_width"]
+        moved = constants[zero].value(point.shifts[zero])
+        shifts[width] += moved / constants[width].sigma
+    return replace(point, shifts=shifts)
 
 
 def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:

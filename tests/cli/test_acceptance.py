@@ -32,7 +32,7 @@ def test_what_was_named_is_told_apart_from_constants_that_moved_with_it(
     creep: tuple[ModelFile, Diagnosis], config: Path, kept: Path
 ) -> None:
     model, found = creep
-    first, moved, way = accept(found, model, config)
+    first, gap, moved, way = accept(found, model, config)
     assert first == f"kept as as-drawn-1: {kept}"
     version = load_model(kept)
     assert version.lineage is not None
@@ -42,6 +42,15 @@ def test_what_was_named_is_told_apart_from_constants_that_moved_with_it(
     assert [one.name for one in made.refitted] == ["parameter:valve.pressure_high_kPa"]
     pressure = version.regulator.pressure_high / 1e3
     said = f"valve.pressure_high_kPa to {pressure:.4g}"
+    assert made.gap is not None
+    after, before, floor = (
+        f"{size:.3g} N"
+        for size in (made.gap.rmse_after, made.gap.rmse_before, made.gap.noise_floor)
+    )
+    assert gap == (
+        "by itself, without zeros and delays of this rig, its force_N is off by"
+        f" {after} on held-out runs instead of {before}, and repeats by {floor}"
+    )
     assert moved == f"with it these constants moved: {said}"
     assert way == "no gripper can go by it: it has no gripper"
 

@@ -12,10 +12,14 @@ from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate
 from gripperd.effects.creep import Creep
+from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.errors import Refused
+from gripperd.model.effect import Signal
 from gripperd.store import Version, Versions
 from gripperd.store.improvement import improvement
 from tests.demonstration import SEED, example
+from tests.diagnose.small import LINKAGE, MODEL, recording, with_jaws
+from tests.diagnose.small import threshold as lacking
 
 NOON = datetime(2026, 1, 31, 12, tzinfo=UTC)
 
@@ -146,6 +150,30 @@ def rubbing(diagnosis: Diagnosis, value: float, std: float) -> Diagnosis:
         found=replace(found, problem=replace(found.problem, constants=tuple(listed))),
         contest=replace(contest, best=replace(contest.best, fit=fitted)),
     )
+
+
+def test_open_jaws_are_as_wide_as_their_sensor_reads(creep: Found) -> None:
+    """Its zero stays out of a version, and what it reads of open jaws is foretold."""
+    drawn = replace(creep[0], linkage=LINKAGE)
+    told = diagnose(
+        with_jaws(recording(lacking(25.0))),
+        replace(MODEL, linkage=LINKAGE),
+        {},
+        {"threshold_pressure": ThresholdPressure},
+    )
+    problem, best = told.found.problem, told.contest.best
+    shifts = best.fit.point.shifts.copy()
+    shifts[[one.path for one in problem.constants].index("zero.opening")] = 2.5
+    point = replace(best.fit.point, shifts=shifts)
+    fitted = replace(best, fit=replace(best.fit, point=point))
+    moved = replace(told, contest=replace(told.contest, best=fitted))
+    whole = problem.explanation(point)
+    assert whole.linkage is not None
+    assert whole.zeros[Signal.OPENING] > 1e-4
+    better = improvement(drawn, moved, "0.1.0").model.linkage
+    assert better is not None
+    read = whole.linkage.open_width + whole.zeros[Signal.OPENING]
+    assert better.open_width == pytest.approx(read, abs=1e-6)
 
 
 @pytest.mark.parametrize(
