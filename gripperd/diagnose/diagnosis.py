@@ -22,6 +22,7 @@ from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.nearest import nearest_of
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.search.selection import Progress, Selection, selected
 from gripperd.diagnose.setup import problem_of
@@ -167,12 +168,29 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
 def _judged(
     recording: Recording, selection: Selection, untested: dict[str, str], seed: int
 ) -> Diagnosis:
-    """Hold what was selected against the sweeps that were left out."""
+    """Judge what was selected; where that is nothing and much is left, what is near."""
+    told = _weighed(recording, selection, untested, seed)
+    near = replace(selection, contest=nearest_of(selection.found))
+    nothing = told.verdict is Verdict.UNEXPLAINED and not told.named
+    if not (nothing and near.contest.best.candidates):
+        return told
+    return _weighed(recording, near, untested, seed, is_near=True)
+
+
+def _weighed(
+    recording: Recording,
+    selection: Selection,
+    untested: dict[str, str],
+    seed: int,
+    *,
+    is_near: bool = False,
+) -> Diagnosis:
+    """Hold an explanation, which may be but near, against the sweeps left out."""
     parts, found, best = selection.parts, selection.found, selection.contest
     train = parts.train
     # The noise of a table is not known, so what is left cannot be held against it.
     judge = found.problem if is_table(train.courses) else train
-    conclusion = conclude(judge, found, best)
+    conclusion = conclude(judge, found, best, is_near=is_near)
     imitated = artefact(found, best)
     start, base, nearest = (
         with_fitted_state(parts, point)

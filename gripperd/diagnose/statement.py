@@ -38,8 +38,9 @@ def summary(diagnosis: Diagnosis) -> str:
                 f" {_open(diagnosis)}{gap}."
             )
         case Verdict.UNEXPLAINED:
+            explains = "is sure to explain" if diagnosis.named else "explains"
             return (
-                "The model is off, and no effect of the library explains"
+                f"The model is off, and no effect of the library {explains}"
                 f" it{_still_open(diagnosis)}."
             )
         case Verdict.NONE:
@@ -56,7 +57,7 @@ def statement(diagnosis: Diagnosis, entry: Named) -> str:
     """Say what one effect or constant does and what to do about it, in one sentence."""
     what = _corrected(diagnosis, entry) if entry.effect is None else _effect(entry)
     if diagnosis.verdict is Verdict.UNEXPLAINED:
-        return f"Nearest, and no explanation of what is seen: {what}."
+        return f"Nearest, and not sure to be what is seen: {what}."
     if entry.equivalents:
         others = listed(list(map(plain, entry.equivalents)), "or")
         said = f"Perhaps {what}{_shown(diagnosis, entry)}"

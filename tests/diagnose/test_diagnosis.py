@@ -14,6 +14,7 @@ from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.statement import summary
 from gripperd.diagnose.verdict.artefact import Jump
 from gripperd.diagnose.verdict.conclude import Verdict, conclude
 from gripperd.diagnose.verdict.gap import Gap
@@ -35,6 +36,7 @@ from tests.diagnose.small import (
     pinned,
     recording,
     restless,
+    rubbing,
     threshold,
     with_jaws,
     without,
@@ -436,6 +438,18 @@ def test_a_sensor_may_have_drifted_in_a_sweep_left_out(
     assert found.held_out == told.held_out
     assert found.gaps[Signal.FORCE].is_open
     assert found.verdict is verdict
+
+
+def test_what_is_too_small_to_be_told_is_told_to_come_nearest() -> None:
+    found = diagnose(recording(rubbing(5.0), noise=0.2), MODEL, {}, dict(EFFECTS))
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert _names(found) == ["coulomb_friction"]
+    assert found.told is found.found.null
+    assert "they change no reading by 0.5% of full scale" in found.signature[2]
+    assert "is sure to explain it" in summary(found)
+    text = document(found, model="m", program="p")
+    assert text["effects"] == []
+    assert text["nearest"]
 
 
 def test_what_is_unexplained_is_told_of_the_signal_in_which_it_shows() -> None:

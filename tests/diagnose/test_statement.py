@@ -86,7 +86,7 @@ def test_what_is_not_established_is_not_claimed(creep: Diagnosis) -> None:
     unexplained = replace(creep, verdict=Verdict.UNEXPLAINED)
     entry = replace(creep.named[0], size=12.04)
     assert statement(unexplained, entry) == (
-        "Nearest, and no explanation of what is seen: creep, worth 12 N of force (rms)."
+        "Nearest, and not sure to be what is seen: creep, worth 12 N of force (rms)."
     )
 
 
@@ -118,14 +118,15 @@ def test_what_is_unexplained_says_how_much_is_left(creep: Diagnosis) -> None:
     gap = replace(creep.gaps[Signal.FORCE], recalibrated=22.22, noise_floor=6.99)
     told = replace(creep, verdict=Verdict.UNEXPLAINED, gaps={Signal.FORCE: gap})
     assert summary(told) == (
-        "The model is off, and no effect of the library explains it; with better"
+        "The model is off, and no effect of the library is sure to explain it; with"
+        " better"
         " constants the force is still off by 22.2 N on data it never saw, and repeats"
         " by 6.99 N."
     )
-    assert summary(replace(told, main=None)).endswith("explains it.")
+    assert summary(replace(told, main=None, named=())).endswith("explains it.")
     quiet = replace(told, gaps={Signal.FORCE: replace(gap, recalibrated=6.9)})
     assert summary(quiet).endswith(
-        "explains it; the force of sweeps it never saw does not show it."
+        "is sure to explain it; the force of sweeps it never saw does not show it."
     )
 
 

@@ -63,7 +63,9 @@ class Conclusion:
         return tuple(dict.fromkeys((*structured, *self.louder, *self.left_out)))
 
 
-def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
+def conclude(
+    problem: Problem, found: Found, contest: Contest, *, is_near: bool = False
+) -> Conclusion:
     """Weigh what was found against what is left.
 
     Parameters
@@ -72,6 +74,8 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
         With the noise as it was identified, not louder.
     found, contest
         The search and its outcome.
+    is_near
+        Whether that is but near, and no explanation.
     """
     before = _structured(problem, found.null.fit)
     after = _structured(problem, contest.best.fit)
@@ -81,7 +85,7 @@ def conclude(problem: Problem, found: Found, contest: Contest) -> Conclusion:
     louder = _louder(problem, contest.best.fit)
     if not contest.best.candidates:
         verdict = Verdict.UNEXPLAINED if remains or louder else Verdict.NONE
-    elif remains and share < EXPLAINED:
+    elif is_near or (remains and share < EXPLAINED):
         verdict = Verdict.UNEXPLAINED
     elif any(contest.equivalents):
         verdict = Verdict.AMBIGUOUS

@@ -1,6 +1,7 @@
 """What nobody could name, in words: what it depends on and what it does not."""
 
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.price import SEEN, size_of
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.artefact import Artefact
 from gripperd.diagnose.verdict.conclude import Conclusion
@@ -37,6 +38,11 @@ def signature(
     if best.best.names:
         nearest = ", ".join(map(plain, best.best.names))
         words.append(f"nearest known effects: {nearest}")
+        if size_of(problem, best.best, best.best.names, problem.signals) < SEEN:
+            words.append(
+                f"they change no reading by {SEEN:.1%} of full scale, and a sound"
+                " sensor drifts nearly as much"
+            )
     if artefact:
         # By the clock of the file, as everything else that is told of it.
         words.append(f"force: {artefact.told(problem.courses[0].start)}")
