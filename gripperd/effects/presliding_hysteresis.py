@@ -27,6 +27,9 @@ from gripperd.model.track import Array, Track
 
 SHORTEST = 0.006
 """Least way of the middle spring; the near one slips after a third of it. [-]"""
+SUDDEN = 0.009
+"""Way of the middle spring up to which the near one slips within 0.3 %: as little as a
+length is read by, and dry friction turns round over as much. [-]"""
 AT_ONCE = 0.95
 """Share of all that the near spring carries then, from which the force jumps. [-]"""
 
@@ -72,7 +75,7 @@ class PreslidingHysteresis(InMuscle):
     )
     """Way of the middle spring from rest until it slips. [-]
 
-    The near one slips after a third of it. Under 0.2 % of contraction it is no
+    The near one slips after a third of it. Within 0.3 % of contraction that is no
     hysteresis any more but a jump, see ``coulomb_friction``.
     """
 
@@ -103,9 +106,9 @@ class PreslidingHysteresis(InMuscle):
 
     @property
     def becomes(self) -> str:
-        """Dry friction, once nearly all slips within 0.2 % of contraction."""
+        """Dry friction, once nearly all slips within 0.3 % of contraction."""
         total = self.near + self.middle + self.far
-        jumps = self.near > AT_ONCE * total and self.contraction <= 1.001 * SHORTEST
+        jumps = self.near > AT_ONCE * total and self.contraction <= SUDDEN
         slips = self.hysteron is Hysteron.STOP and jumps
         return "coulomb_friction" if slips else ""
 

@@ -133,7 +133,7 @@ def test_every_closed_loop_loses_work(muscle: Muscle) -> None:
 
 @pytest.mark.parametrize(
     ("middle", "contraction", "name"),
-    [(0.0, 0.006, "coulomb_friction"), (2.0, 0.006, ""), (0.0, 0.007, "")],
+    [(0.0, 0.009, "coulomb_friction"), (2.0, 0.006, ""), (0.0, 0.01, "")],
 )
 def test_springs_that_all_slip_at_once_are_dry_friction(
     middle: float, contraction: float, name: str
