@@ -213,8 +213,8 @@ def passed_on(
     if signal is Signal.GRIP:
         beside = course.column("force") - course.level("force")
         sharp = replace(sharp, force=track.force + beside)
-    rough = (at_once(explanation, one, signal) for one in (sharp, track))
-    return np.nan_to_num(next(rough) - next(rough))
+    rough, smooth = (at_once(explanation, one, signal) for one in (sharp, track))
+    return np.nan_to_num(rough - smooth)
 
 
 def at_once(explanation: Explanation, track: Runs, signal: Signal) -> Array:
