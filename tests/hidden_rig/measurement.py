@@ -45,7 +45,7 @@ def instruments(
         scale = full_scale(name, values)
         std = float(random.uniform(0.002, 0.006)) * scale
         if name == "contraction":
-            std = float(random.uniform(0.0005, 0.001)) * scale
+            std = _of_length(float(random.random())) * scale
         if name == "opening_mm":
             std = 0.1
         wanders = drifts and name in ("force_N", "pressure_kPa")
@@ -57,6 +57,13 @@ def instruments(
             drift_memory=float(random.uniform(20, 200)),
         )
     return noises
+
+
+def _of_length(place: float) -> float:
+    """Noise of a contraction, of full scale: half of the rigs have an encoder."""
+    encoder, potentiometer = (0.0005, 0.001), (0.002, 0.006)
+    ends = encoder if place < 0.5 else potentiometer
+    return float(np.interp(2 * place % 1.0, (0.0, 1.0), ends))
 
 
 def measured(
