@@ -153,10 +153,18 @@ def beside_drift(test: Problem, point: Point) -> dict[Signal, float]:
     """
     found: dict[Signal, list[Array]] = {}
     for block, residual in zip(test.blocks, test.residuals(point), strict=True):
-        most = DRIFTS * test.full_scale[block.signal]
+        most = DRIFTS * _full_scale(test, block.signal)
         steady = residual - np.clip(np.mean(residual), -most, most)
         found.setdefault(block.signal, []).append(steady)
     return {signal: _rms(np.concatenate(pieces)) for signal, pieces in found.items()}
+
+
+def _full_scale(test: Problem, signal: Signal) -> float:
+    """Of a sensor, and of that which its reading is foretold from. [SI]."""
+    scales, linkage = test.full_scale, test.model.linkage
+    if signal is Signal.GRIP and linkage is not None:
+        return scales[signal] + scales.get(Signal.FORCE, 0.0) / linkage.ratio
+    return scales[signal]
 
 
 def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:

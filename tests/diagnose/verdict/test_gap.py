@@ -7,15 +7,27 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.gap import (
+    DRIFTS,
     Gap,
     _interval,
+    beside_drift,
     by_signal,
     gaps,
 )
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
-from tests.diagnose.small import undoubted
+from tests.diagnose.small import (
+    LINKAGE,
+    MODEL,
+    altered,
+    moments,
+    nothing,
+    recording,
+    undoubted,
+    with_grip,
+)
 
 NOISES = {Signal.FORCE: Noise(3.0, 0.0, drift=4.0), Signal.PRESSURE: Noise(1e3, 0.0)}
 
@@ -221,3 +233,17 @@ def test_few_samples_have_an_interval_as_well() -> None:
     # 95 % of the root mean square of 30 normal numbers, by chi squared: 26 % each way.
     assert 0.6 * rms < low < 0.9 * rms
     assert 1.1 * rms < high < 1.4 * rms
+
+
+def test_a_grip_is_off_by_the_drift_of_both_cells() -> None:
+    """It is foretold from a force, which may have drifted by as much of its own."""
+    model = replace(MODEL, linkage=LINKAGE)
+    plain = problem_of(with_grip(recording(nothing)), model, {})
+    point = Point(np.zeros(len(plain.constants)))
+    told = altered(
+        with_grip(recording(nothing)), moments(), "grip", lambda grip: grip + 2.5
+    )
+    off = problem_of(told, model, {})
+    assert DRIFTS * plain.full_scale[Signal.GRIP] < 2.5
+    before, after = (beside_drift(one, point)[Signal.GRIP] for one in (plain, off))
+    assert after < 1.1 * before
