@@ -139,12 +139,11 @@ def rubbing(diagnosis: Diagnosis, value: float, std: float) -> Diagnosis:
     listed = list(found.problem.constants)
     listed[index] = replace(listed[index], nominal=0.0, sigma=1.0)
     fit = contest.best.fit
-    shifts, covariance = fit.point.shifts.copy(), fit.covariance.copy()
-    covariance[index] = covariance[:, index] = 0.0
-    shifts[index], covariance[index, index] = value, std**2
-    fitted = replace(
-        fit, point=replace(fit.point, shifts=shifts), covariance=covariance
-    )
+    shifts, told = fit.point.shifts.copy(), fit.information.copy()
+    told[index] = told[:, index] = 0.0
+    # Beside the tolerance, of 1.
+    shifts[index], told[index, index] = value, std**-2 - 1
+    fitted = replace(fit, point=replace(fit.point, shifts=shifts), information=told)
     return replace(
         diagnosis,
         found=replace(found, problem=replace(found.problem, constants=tuple(listed))),

@@ -65,6 +65,8 @@ class Polished:
     covariance: Array
     """Of constants (in sigma) and coordinates (in units), each shape held about where
     it ended by a prior of half its value, shape ``(k, k)``."""
+    information: Array
+    """What data alone tell of the same (Fisher), shape ``(k, k)``."""
 
     @property
     def posterior(self) -> Array:
@@ -72,12 +74,13 @@ class Polished:
 
         Of a shape nothing is known before but its limits: it is anywhere between.
         """
-        known = np.linalg.inv(self.covariance)
-        first = len(known) - len(self.coordinates)
+        scale = np.ones(len(self.information))
+        first = scale.size - len(self.coordinates)
         for place, one in enumerate(self.coordinates, first):
             if not one.is_amplitude:
-                known[place, place] += 12 * (one.unit / (one.high - one.low)) ** 2 - 1
-        return np.asarray(np.linalg.inv(known), np.float64)
+                scale[place] = (one.high - one.low) / 12**0.5 / one.unit
+        known = np.outer(scale, scale) * self.information + np.eye(scale.size)
+        return np.asarray(np.outer(scale, scale) * np.linalg.inv(known), np.float64)
 
     @property
     def samples(self) -> int:
@@ -99,11 +102,12 @@ def polished(problem: Problem, point: Point) -> Polished:
     coordinates = _coordinates(problem, point)
     low, high = bounds(problem, point, coordinates)
     cost, white = _cost(problem, point, coordinates)
-    covariance: Array = np.empty((0, 0))
+    covariance = information = np.empty((0, 0))
     damping = 0.0
     for _ in range(ROUNDS):
         columns = slopes(problem, point, coordinates)
-        matrix = columns.T @ columns + np.eye(columns.shape[1])
+        information = columns.T @ columns
+        matrix = information + np.eye(columns.shape[1])
         covariance = np.asarray(np.linalg.inv(matrix), np.float64)
         here = coefficients(point, coordinates)
         pull = columns.T @ np.concatenate(white) - _priors(here, coordinates)
@@ -125,7 +129,7 @@ def polished(problem: Problem, point: Point) -> Polished:
     for block, left in zip(problem.blocks, white, strict=True):
         misfits[block.signal] += float(left @ left)
         counts[block.signal] += left.size
-    return Polished(point, cost, misfits, counts, coordinates, covariance)
+    return Polished(point, cost, misfits, counts, coordinates, covariance, information)
 
 
 def bounds(

@@ -30,7 +30,8 @@ def _fit(blank: Problem, **shares: float) -> Polished:
     misfits = {Signal(name): 100 * share for name, share in shares.items()}
     point = Point(np.zeros(len(blank.constants)))
     counts = dict.fromkeys(misfits, 100)
-    return Polished(point, 0.0, misfits, counts, (), np.empty((0, 0)))
+    nothing = np.empty((0, 0))
+    return Polished(point, 0.0, misfits, counts, (), nothing, nothing)
 
 
 @pytest.mark.parametrize(

@@ -129,13 +129,17 @@ def test_the_optimum_is_that_of_another_optimiser() -> None:
 
 
 @pytest.mark.parametrize("sharp", [0.0, 1e-6, 25.0, 1e4])
-def test_a_shape_is_as_doubtful_as_data_and_its_limits_leave_it(sharp: float) -> None:
+@pytest.mark.parametrize("unit", [2e-3, 1e-9])
+def test_a_shape_is_as_doubtful_as_data_and_its_limits_leave_it(
+    sharp: float, unit: float
+) -> None:
     """Where data say nothing it is anywhere between these (a uniform law)."""
-    shape = Coordinate("creep", "fresh", 2e-3, 0.01, 1.0, is_amplitude=False)
+    shape = Coordinate("creep", "fresh", unit, 0.01, 1.0, is_amplitude=False)
     size = Coordinate("creep", "fast", 0.1, 0.0, 1.0, is_amplitude=True)
-    held = np.diag([1 / (sharp + 1), 1 / (9.0 + 1)])
-    fit = Polished(Point(np.zeros(0)), 0.0, {}, {}, (shape, size), held)
-    alone = (1.0 - 0.01) / 12**0.5 / 2e-3
+    told = np.diag([sharp, 9.0])
+    held = np.asarray(np.linalg.inv(told + np.eye(2)), np.float64)
+    fit = Polished(Point(np.zeros(0)), 0.0, {}, {}, (shape, size), held, told)
+    alone = (1.0 - 0.01) / 12**0.5 / unit
     std = np.sqrt(np.diag(fit.posterior))
     assert std[0] == pytest.approx((sharp + alone**-2) ** -0.5)
     assert std[1] == pytest.approx(10**-0.5)

@@ -26,10 +26,9 @@ def _rival(problem: Problem, *candidates: Candidate, cost: float) -> Rival:
     point = Point(np.zeros(len(problem.constants)))
     for one in candidates:
         point = added(point, one)
-    size = len(problem.constants)
-    fit = Polished(
-        point, cost, {Signal.FORCE: cost}, {Signal.FORCE: 300}, (), np.eye(size)
-    )
+    held = np.eye(len(problem.constants))
+    counts = {Signal.FORCE: 300}
+    fit = Polished(point, cost, {Signal.FORCE: cost}, counts, (), held, 0 * held)
     return Rival(candidates, fit)
 
 
