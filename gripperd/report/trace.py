@@ -101,7 +101,7 @@ def _trace(
         kind=course.kind,
         start=float(course.time[0]) - course.start,
         time=course.time[good] - course.time[0],
-        measured=column.written(whole.measured[index]),
+        measured=column.written(whole.readings[index]),
         expected={state: column.written(values) for state, values in expected.items()},
         levels=levels,
         direction=course.direction[good],

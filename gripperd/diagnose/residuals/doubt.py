@@ -21,12 +21,16 @@ from gripperd.diagnose.residuals.track import track_of
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
+LENGTH = "length"
+"""Column of the contraction with its corners sharp."""
+
 
 def own_shares(
     model: Explanation,
     courses: Sequence[Course],
     blocks: Sequence[Block],
     stds: Sequence[float],
+    length: str = LENGTH,
 ) -> list[Array]:
     """Share of the uncertainty of each reading that readings of its kind have anyway.
 
@@ -41,6 +45,8 @@ def own_shares(
         that are read otherwise in one sweep than in another.
     stds
         Of the noise of one reading, block by block. [SI]
+    length
+        Column it is taken from: its trend is ``contraction``.
 
     Returns
     -------
@@ -48,7 +54,7 @@ def own_shares(
     exactly. [-]
     """
     handed = [_of_pressure(model, courses[block.course], block) for block in blocks]
-    lengths = [of_length(model, courses[block.course], block) for block in blocks]
+    lengths = [of_length(model, courses[one.course], one, length) for one in blocks]
     forces = [
         one
         for one, block in zip(handed, blocks, strict=True)
@@ -57,12 +63,14 @@ def own_shares(
     usual = float(np.median(np.concatenate(forces))) if forces else 0.0
     return [
         np.hypot(std, usual)
-        / np.sqrt(std**2 + np.maximum(pressure, usual) ** 2 + length**2)
-        for pressure, length, std in zip(handed, lengths, stds, strict=True)
+        / np.sqrt(std**2 + np.maximum(pressure, usual) ** 2 + way**2)
+        for pressure, way, std in zip(handed, lengths, stds, strict=True)
     ]
 
 
-def of_length(model: Explanation, course: Course, block: Block) -> Array:
+def of_length(
+    model: Explanation, course: Course, block: Block, length: str = LENGTH
+) -> Array:
     """Standard deviation of a force that the noise of a length makes. [N].
 
     Parameters
@@ -71,11 +79,13 @@ def of_length(model: Explanation, course: Course, block: Block) -> Array:
         Whose slope turns a contraction into a force.
     course, block
         A sweep, and readings of it; 0 of any but a force.
+    length
+        Column it is taken from.
     """
     if _is_other(course, block):
         return np.zeros(int(block.good.sum()))
     track = track_of(model, course, block.course)
-    aside = replace(track, contraction=track.contraction + course.doubt("length"))
+    aside = replace(track, contraction=track.contraction + course.doubt(length))
     here, there = (at_once(model, one, Signal.FORCE) for one in (track, aside))
     return np.nan_to_num(np.abs(there - here))[block.good]
 

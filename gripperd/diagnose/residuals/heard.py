@@ -68,8 +68,9 @@ def _share(told: Sequence[tuple[Array, float]]) -> float:
 
 
 def _heard(course: Course, share: float) -> Course:
-    if "length" not in course.smooth:
-        return course
-    length = course.smooth["length"]
-    known = length._replace(doubt=share * length.doubt)
-    return replace(course, smooth={**course.smooth, "length": known})
+    known = {
+        name: course.smooth[name]._replace(doubt=share * course.doubt(name))
+        for name in ("length", "contraction")
+        if name in course.smooth
+    }
+    return replace(course, smooth={**course.smooth, **known})

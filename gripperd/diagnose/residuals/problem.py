@@ -177,6 +177,16 @@ class Problem:
         return found
 
     @cached_property
+    def readings(self) -> list[Array]:
+        """The same as they are judged, a force as it was read. [SI]."""
+        return [
+            self.courses[block.course].column(block.signal.value)[block.good]
+            if block.signal is Signal.FORCE
+            else measured
+            for block, measured in zip(self.blocks, self.measured, strict=True)
+        ]
+
+    @cached_property
     def times(self) -> list[Array]:
         """Times block by block. [s]."""
         return [self.courses[b.course].time[b.good] for b in self.blocks]
@@ -213,6 +223,15 @@ class Problem:
         expected = self.expected(self.explanation(point))
         return [y - f for y, f in zip(self.measured, expected, strict=True)]
 
+    def judged(self, point: Point) -> list[Array]:
+        """Readings minus what smooth inputs foretell, block by block. [SI].
+
+        A fit takes a length as it was read, for its corners: its noise weighs less in
+        many samples than a corner that a trend cuts off. A prediction knows better.
+        """
+        expected = self.expected(self.explanation(point))
+        return [y - f for y, f in zip(self.readings, expected, strict=True)]
+
     def white(self, columns: Sequence[Array], index: int) -> Array:
         """Whiten columns of one block, shape ``(n, k)``."""
         shared = self.shares[index][:, None] * np.column_stack(columns)
@@ -233,13 +252,12 @@ class Problem:
         return own_shares(self.model, self.courses, self.blocks, stds)
 
     def floor(self, signal: Signal) -> float:
-        """Root mean square that repeated readings of a signal are apart. [SI]."""
+        """Root mean square of a signal about a model that misses nothing. [SI]."""
         noise = self.noises[signal]
-        stds = [
-            noise.std / share
-            for block, share in zip(self.blocks, self.shares, strict=True)
-            if block.signal is signal
-        ]
+        blocks = [block for block in self.blocks if block.signal is signal]
+        known = [noise.std] * len(blocks)
+        shares = own_shares(self.model, self.courses, blocks, known, "contraction")
+        stds = [noise.std / share for share in shares]
         return float(np.hypot(np.sqrt(np.mean(np.concatenate(stds) ** 2)), noise.drift))
 
     @cached_property

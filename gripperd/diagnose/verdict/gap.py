@@ -152,7 +152,7 @@ def beside_drift(test: Problem, point: Point) -> dict[Signal, float]:
         The model.
     """
     found: dict[Signal, list[Array]] = {}
-    for block, residual in zip(test.blocks, test.residuals(point), strict=True):
+    for block, residual in zip(test.blocks, test.judged(point), strict=True):
         most = DRIFTS * _full_scale(test, block.signal)
         steady = residual - np.clip(np.mean(residual), -most, most)
         found.setdefault(block.signal, []).append(steady)
@@ -170,7 +170,7 @@ def _full_scale(test: Problem, signal: Signal) -> float:
 def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:
     """Residuals of each signal, in order of time. [SI]."""
     found: dict[Signal, list[Array]] = {}
-    for block, residual in zip(problem.blocks, problem.residuals(point), strict=True):
+    for block, residual in zip(problem.blocks, problem.judged(point), strict=True):
         found.setdefault(block.signal, []).append(residual)
     return {signal: np.concatenate(pieces) for signal, pieces in found.items()}
 

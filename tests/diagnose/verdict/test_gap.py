@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
@@ -247,3 +248,25 @@ def test_a_grip_is_off_by_the_drift_of_both_cells() -> None:
     assert DRIFTS * plain.full_scale[Signal.GRIP] < 2.5
     before, after = (beside_drift(one, point)[Signal.GRIP] for one in (plain, off))
     assert after < 1.1 * before
+
+
+def test_a_length_that_is_read_badly_is_no_gap_of_the_model() -> None:
+    """A prediction knows the way of the length better than each reading of it."""
+    rng = np.random.default_rng(23)
+    loud = altered(
+        recording(nothing), moments(), "contraction",
+        lambda way: way + rng.normal(0.0, 2e-3, way.size),
+    )  # fmt: skip
+    problem = problem_of(loud, MODEL, {})
+    point = polished(problem, Point(np.zeros(len(problem.constants)))).point
+    judged = by_signal(problem, point)[Signal.FORCE]
+    fitted = np.concatenate([
+        residual
+        for block, residual in zip(
+            problem.blocks, problem.residuals(point), strict=True
+        )
+        if block.signal is Signal.FORCE
+    ])  # fmt: skip
+    rms, read = (float(np.sqrt(np.mean(one**2))) for one in (judged, fitted))
+    assert rms < 0.9 * read
+    assert rms == pytest.approx(problem.floor(Signal.FORCE), rel=0.15)
