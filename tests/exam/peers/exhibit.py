@@ -38,7 +38,7 @@ class Exhibit:
             What a method adds to the recalibrated model, block by block of the test.
         """
         left: dict[str, list[Array]] = {}
-        residuals = self.test.residuals(self.point)
+        residuals = self.test.judged(self.point)
         for block, residual, part in zip(
             self.test.blocks, residuals, explained, strict=True
         ):
