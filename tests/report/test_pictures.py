@@ -62,6 +62,18 @@ def test_names_of_runs_are_no_formulas(found: tuple[Trace, ...]) -> None:
         picture.drawing.draw_without_rendering()
 
 
+def test_pictures_show_the_residuals_of_which_the_gap_is_told(
+    creep: Diagnosis, found: tuple[Trace, ...]
+) -> None:
+    gap = creep.gaps[Signal.FORCE]
+    for state, told in (
+        (State.RECALIBRATED, gap.recalibrated),
+        (State.EXPLAINED, gap.after),
+    ):
+        left = np.concatenate([one.residual(state)[one.held_out] for one in found])
+        assert np.sqrt(np.mean(left**2)) == pytest.approx(told, rel=1e-6)
+
+
 def greyed(found: tuple[Trace, ...]) -> list[tuple[float, float]]:
     (axes,) = over_time(found, BY_QUANTITY["force"], 3.0).drawing.axes
     boxes = [one.get_window_extent() for one in axes.patches]

@@ -53,7 +53,7 @@ class Gap:
     after: float
     """With the effects."""
     noise_floor: float
-    """Repeatability of the measurement itself."""
+    """Repeatability of the measurement itself, inputs of the prediction included."""
     ci95_after: tuple[float, float]
     """Interval that holds ``after`` with 95 %, by a block bootstrap [1]_."""
     in_band: float = 0.0
