@@ -10,7 +10,6 @@ from rich.text import Text
 from gripperd.cli.console import console
 from gripperd.cli.model import PIPE_WIDTH
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.objection import contradicted, left_out
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.statement import offered, span, statement, summary
@@ -148,7 +147,7 @@ def _extrapolation(diagnosis: Diagnosis) -> Group | None:
 
 
 def _gaps(diagnosis: Diagnosis, gaps: Mapping[Signal, Gap]) -> Table:
-    adds = diagnosis.verdict not in UNNAMED
+    adds = diagnosis.verdict.establishes
     after = ["with what was found"] if adds else []
     table = Table("", "as it came", "recalibrated", *after, "noise floor", box=None)
     for signal, gap in gaps.items():

@@ -99,8 +99,7 @@ class Diagnosis:
     @property
     def told(self) -> Rival:
         """What the model is to be: with what was named, or better constants alone."""
-        is_named = self.verdict in (Verdict.NAMED, Verdict.AMBIGUOUS)
-        return self.contest.best if is_named else self.found.null
+        return self.contest.best if self.verdict.establishes else self.found.null
 
     @property
     def explained(self) -> Point:
@@ -216,7 +215,7 @@ def _weighed(
         is_open = bool(imitated) or (gap is not None and gap.is_open)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     conclusion = not_closed(train, conclusion, judged, beside_drift(inside, base))
-    if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
+    if not conclusion.verdict.establishes:
         # Nothing is added to the model, so better constants are all there is.
         points = (start, base, base)
         judged = gaps(inside, points, np.random.default_rng(seed))

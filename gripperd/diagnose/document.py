@@ -12,7 +12,6 @@ from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
 from gripperd.diagnose.readings.recording import Contradiction
 from gripperd.diagnose.statement import statement, summary
-from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import UNLIKELY
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.diagnose.verdict.key import keys_of, number, public
@@ -23,9 +22,6 @@ from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
 Document: TypeAlias = dict[str, object]
-
-UNNAMED = (Verdict.NONE, Verdict.UNEXPLAINED, Verdict.UNUSABLE)
-"""Verdicts that establish no effect."""
 
 
 def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
@@ -44,7 +40,7 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
         Version of the program.
     """
     entries = [_effect(diagnosis, entry) for entry in diagnosis.named]
-    named = diagnosis.verdict not in UNNAMED
+    named = diagnosis.verdict.establishes
     recording = diagnosis.recording
     return {
         "verdict": diagnosis.verdict.value,

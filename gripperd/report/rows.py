@@ -7,7 +7,6 @@ import numpy as np
 
 from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.search.rivalry import EVEN
@@ -59,7 +58,7 @@ def gap_bars(diagnosis: Diagnosis, gap: Gap) -> Bars:
         "with what was found": gap.after,
         "noise floor": gap.noise_floor,
     }
-    adds = diagnosis.verdict not in UNNAMED
+    adds = diagnosis.verdict.establishes
     if not adds:
         del sizes["with what was found"]
     top = max(sizes.values()) or 1.0

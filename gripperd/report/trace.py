@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.document import UNNAMED
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.recording import Kind
 from gripperd.diagnose.residuals.problem import Problem
@@ -63,7 +62,7 @@ def traces(diagnosis: Diagnosis, signal: Signal) -> tuple[Trace, ...]:
         State.RECALIBRATED: diagnosis.recalibrated,
     }
     if diagnosis.named:
-        established = diagnosis.verdict not in UNNAMED
+        established = diagnosis.verdict.establishes
         last = State.EXPLAINED if established else State.NEAREST
         points[last] = diagnosis.explained
     expected = {

@@ -38,6 +38,11 @@ class Verdict(StrEnum):
     AMBIGUOUS = "ambiguous"
     UNUSABLE = "unusable"
 
+    @property
+    def establishes(self) -> bool:
+        """Whether anything is said to be missing or wrong by its name."""
+        return self in (Verdict.NAMED, Verdict.AMBIGUOUS)
+
 
 @dataclass(frozen=True)
 class Conclusion:
@@ -105,7 +110,7 @@ def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
         Whether these sweeps are off by more than noise without any name. Where they
         are not, and no structure is seen either, sensors drift and nothing is missing.
     """
-    if conclusion.verdict not in (Verdict.NAMED, Verdict.AMBIGUOUS):
+    if not conclusion.verdict.establishes:
         return conclusion
     remains = is_open or bool(_remaining(conclusion.before)) or bool(conclusion.louder)
     verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
