@@ -5,8 +5,8 @@ The numbers are a record for people and stay in the units of the file.
 
 from contextlib import suppress
 from datetime import UTC, datetime
-from itertools import chain
-from math import isfinite
+from itertools import chain, combinations
+from math import isfinite, sqrt
 from typing import Annotated, Self, TypeAlias, TypeVar
 
 from pydantic import Field, PlainSerializer, PlainValidator, model_validator
@@ -18,6 +18,10 @@ T = TypeVar("T")
 
 Listed: TypeAlias = Annotated[tuple[T, ...], Field(strict=False)]
 Size: TypeAlias = Annotated[float, Field(ge=0)]
+
+
+ROUNDED = 1 + 1e-5
+"""Numbers of a file have six digits, so that a correlation may seem to be above 1."""
 
 
 def _moment(given: object) -> datetime:
@@ -64,10 +68,11 @@ class Added(Section):
 
 
 class Covariance(Section):
-    """Of the fitted parameters, in the products of their units."""
+    """Of all numbers that were fitted together, in the products of their units."""
 
     parameters: Listed[str]
-    """Names such as ``creep.amplitude_N``, one a row."""
+    """Names such as ``creep.amplitude_N`` or ``parameter:muscle.diameter_mm``, one a
+    row."""
     matrix: Listed[Listed[float]]
 
     @model_validator(mode="after")
@@ -79,6 +84,15 @@ class Covariance(Section):
         if not all(map(isfinite, chain.from_iterable(self.matrix))):
             message = "the matrix holds a number that is not finite"
             raise ValueError(message)
+        rows = self.matrix
+        for (a, one), (b, other) in combinations(enumerate(self.parameters), 2):
+            most = ROUNDED * sqrt(max(rows[a][a], 0.0) * max(rows[b][b], 0.0))
+            if rows[a][b] != rows[b][a] or abs(rows[a][b]) > most:
+                message = (
+                    f"{one} and {other} cannot have covariances of {rows[a][b]:g} and"
+                    f" {rows[b][a]:g}: they are the same, and at most {most:g} here"
+                )
+                raise ValueError(message)
         return self
 
 

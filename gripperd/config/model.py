@@ -1,31 +1,20 @@
 """Model files: muscle, valve, gripper and effects, to a chain in SI."""
 
-# ruff: noqa: N815  (names carry units, and units have capitals)
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import cast
 
-from pydantic import Field, ValidationInfo, field_validator
-
 from gripperd.config.complaint import Complaint, KeyPath
+from gripperd.config.correlation import correlations
 from gripperd.config.document import Document, read_document
-from gripperd.config.effect import Effects, Library, keys_of_effect
+from gripperd.config.effect import AnyEffect, Effects, Library, keys_of_effect
 from gripperd.config.lineage import Lineage
 from gripperd.config.location import shipped
+from gripperd.config.model_parts import GripperSection, MuscleSection, ValveSection
 from gripperd.config.number import factor_of
 from gripperd.config.sealed import check_seal
-from gripperd.config.section import (
-    ENDS,
-    Kilopascals,
-    Milliamperes,
-    Name,
-    Rising,
-    Section,
-    key_of,
-    numbers,
-)
+from gripperd.config.section import ENDS, Name, Section, key_of, numbers
 from gripperd.config.tolerance import Sigmas, moved, without_tolerances
 from gripperd.config.validation import validated
 from gripperd.diagnose.residuals.explanation import Explanation
@@ -41,43 +30,6 @@ from gripperd.model import (
 from gripperd.model.effect import Effect, acts_in_muscle
 from gripperd.model.parameter import parameters
 from gripperd.units import split
-
-
-class MuscleSection(Section):
-    """Constants of the muscle, within what could be made."""
-
-    rest_length_mm: float = Field(ge=10, le=10_000)
-    diameter_mm: float = Field(ge=1, le=200)
-    # From 54.7 deg on the ideal muscle pushes.
-    braid_angle_deg: float = Field(ge=5, le=54)
-    wall_thickness_mm: float = Field(gt=0, le=50)
-    elastic_modulus_MPa: float = Field(gt=0, le=1000)
-    friction_coefficient: float = Field(ge=0, le=2)
-
-    @field_validator("wall_thickness_mm")
-    @classmethod
-    def _leave_a_bore(cls, wall: float, read: ValidationInfo) -> float:
-        diameter = read.data.get("diameter_mm")
-        if diameter is not None and 2 * wall >= diameter:
-            message = f"two walls of {wall:g} mm leave no bore in {diameter:g} mm"
-            raise ValueError(message)
-        return wall
-
-
-class ValveSection(Section):
-    """Two points of the regulator's line."""
-
-    current_mA: Rising[Milliamperes]
-    pressure_kPa: Rising[Kilopascals]
-
-
-class GripperSection(Section):
-    """Linkage and return spring."""
-
-    open_width_mm: float = Field(gt=0, le=1000)
-    ratio: float = Field(ge=0.01, le=100, alias="width_per_contraction")
-    spring_preload_N: float = Field(ge=0, le=100_000)
-    spring_rate_N_per_mm: float = Field(ge=0, le=10_000)
 
 
 class ModelSection(Section):
@@ -121,6 +73,13 @@ class ModelFile:
             effects=(*cast("tuple[Effect, ...]", self.static.effects), *self.effects),
         )
 
+    @property
+    def correlations(self) -> Mapping[tuple[str, str], float]:
+        """How numbers that were fitted together go together, as a chain has it."""
+        fitted = self.lineage and self.lineage.provenance.covariance
+        effects: tuple[AnyEffect, ...] = (*self.static.effects, *self.effects)
+        return correlations(fitted, effects) if fitted else {}
+
     def chain(self) -> Chain:
         """Build the chain from valve current to grip force.
 
@@ -148,6 +107,7 @@ class ModelFile:
             self.regulator,
             self.linkage,
             self.tolerances,
+            correlations=self.correlations,
             effects=self.effects,
         )
 

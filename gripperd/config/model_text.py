@@ -4,12 +4,8 @@ from collections.abc import Mapping
 from enum import Enum
 
 from gripperd.config.effect import AnyEffect, keys_of_effect
-from gripperd.config.model import (
-    GripperSection,
-    ModelFile,
-    MuscleSection,
-    ValveSection,
-)
+from gripperd.config.model import ModelFile
+from gripperd.config.model_parts import PARTS
 from gripperd.config.number import written
 from gripperd.config.section import ENDS, Section, key_of
 from gripperd.config.text import yaml_text
@@ -30,15 +26,15 @@ def model_text(model: ModelFile) -> str:
 
 def model_document(model: ModelFile) -> Document:
     """Write a model the way files and replies have it, in the units of the keys."""
-    parts: tuple[tuple[str, type[Section], object], ...] = (
-        ("muscle", MuscleSection, model.static.muscle),
-        ("valve", ValveSection, model.regulator),
-        ("gripper", GripperSection, model.linkage),
-    )
+    owners: Mapping[str, object] = {
+        "muscle": model.static.muscle,
+        "valve": model.regulator,
+        "gripper": model.linkage,
+    }
     effects: tuple[AnyEffect, ...] = (*model.static.effects, *model.effects)
     document: Document = {"name": model.name}
-    for part, schema, owner in parts:
-        if owner is not None:
+    for part, schema in PARTS.items():
+        if (owner := owners[part]) is not None:
             document[part] = _part(schema, owner, part, model.tolerances)
     document["effects"] = [_effect(each, model.tolerances) for each in effects]
     if model.lineage is not None:

@@ -29,6 +29,7 @@ class ModelMessage(msgspec.Struct, frozen=True):
     effects: tuple[EffectMessage, ...]
     """In the order of the model, those of the muscle first."""
     tolerances: dict[str, float]
+    correlations: dict[tuple[str, str], float]
 
 
 def model_message(chain: Chain) -> ModelMessage:
@@ -42,6 +43,7 @@ def model_message(chain: Chain) -> ModelMessage:
         linkage=chain.linkage,
         effects=tuple(map(_effect_message, effects)),
         tolerances=dict(chain.tolerances),
+        correlations=dict(chain.correlations),
     )
 
 
@@ -60,6 +62,7 @@ def chain_of(message: ModelMessage) -> Chain:
         message.regulator,
         message.linkage,
         message.tolerances,
+        message.correlations,
         effects=tuple(each for each in effects if not acts_in_muscle(each)),
     )
 

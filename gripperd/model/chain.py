@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import hypot, isfinite
+from math import isfinite
 from typing import Self
 
 from gripperd.errors import DomainError, InputError
@@ -19,6 +19,7 @@ from gripperd.model.real import Real
 from gripperd.model.regulator import Regulator
 from gripperd.model.root import falling_root
 from gripperd.model.static import StaticMuscle
+from gripperd.model.uncertainty import combined
 from gripperd.units import MILLI
 
 
@@ -33,6 +34,8 @@ class Chain:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     """One sigma of each constant known only to within that, by path, such as
     ``muscle.diameter``. [SI]"""
+    correlations: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    """Coefficient of correlation of two of these, by both paths; of others 0. [-]"""
     effects: tuple[Effect, ...] = ()
     """Those of valve, gripper and sensors; those of the muscle are in `static`.
 
@@ -249,30 +252,27 @@ class Chain:
         pressed: PressedObject,
         direction: Direction = Direction.CONTRACTING,
     ) -> float:
-        r"""Standard deviation of the grip force, to first order.
+        """Standard deviation of the grip force, from the tolerances. [N].
 
-        .. math:: \sigma_N^2 = \sum_i \left(\frac{\partial N}{\partial c_i}
-                  \sigma_i\right)^2
-
-        over the constants with a tolerance, taken as independent; each derivative by
-        a central difference of one sigma (JCGM 100:2008, eq. (10)). [N]
+        To first order, each derivative by a central difference of one sigma.
         """
-        return hypot(*self._changes(current, pressed, direction))
+        changes = dict(self._changes(current, pressed, direction))
+        return combined(changes, self.correlations)
 
     def _changes(
         self, current: float, pressed: PressedObject, direction: Direction
-    ) -> Iterator[float]:
-        for less, more in self._neighbours:
+    ) -> Iterator[tuple[str, float]]:
+        for path, (less, more) in self._neighbours.items():
             low = less.grip_on(current, pressed, direction)
-            yield (more.grip_on(current, pressed, direction) - low) / 2
+            yield path, (more.grip_on(current, pressed, direction) - low) / 2
 
     @cached_property
-    def _neighbours(self) -> "tuple[tuple[Chain, Chain], ...]":
+    def _neighbours(self) -> "dict[str, tuple[Chain, Chain]]":
         """The chain with each constant one sigma down, and up."""
-        return tuple(
-            (self.varied(path, -sigma), self.varied(path, sigma))
+        return {
+            path: (self.varied(path, -sigma), self.varied(path, sigma))
             for path, sigma in self.tolerances.items()
-        )
+        }
 
     def check_fits(self, diameter: float) -> None:
         """Refuse an object that is wider than the open jaws.

@@ -34,7 +34,8 @@ from gripperd.errors import Refused
 from gripperd.model import StaticMuscle
 from gripperd.model.effect import Effect, acts_in_muscle
 from gripperd.model.parameter import parameters
-from gripperd.store.origin import fitted_constants, is_owned, origin
+from gripperd.store.fitted import constants, fitted, kept
+from gripperd.store.origin import origin
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -68,7 +69,7 @@ def improvement(model: ModelFile, diagnosis: Diagnosis, program: str) -> Improve
         Nothing was named, or data that took no part in the fit do not confirm it.
     """
     _check_named(diagnosis)
-    point = _kept(diagnosis)
+    point = kept(diagnosis)
     gap = _confirmed(diagnosis, point)
     found = diagnosis.found.problem.explanation(point)
     effects = _tidy_effects(found.effects, diagnosis.named)
@@ -114,22 +115,6 @@ def _check_named(diagnosis: Diagnosis) -> None:
         raise Refused(message, code="not-named")
 
 
-def _kept(diagnosis: Diagnosis) -> Point:
-    """What was found without what belongs to the rig of the recording.
-
-    No recording tells the zero of an opening from the width of open jaws, so that the
-    width is told by the sensor that there is.
-    """
-    point, constants = diagnosis.explained, diagnosis.found.problem.constants
-    shifts = np.where([is_owned(one) for one in constants], point.shifts, 0.0)
-    places = {one.path: place for place, one in enumerate(constants)}
-    if {"zero.opening", "gripper.open_width"} <= places.keys():
-        zero, width = places["zero.opening"], places["gripper.open_width"]
-        moved = constants[zero].value(point.shifts[zero])
-        shifts[width] += moved / constants[width].sigma
-    return replace(point, shifts=shifts)
-
-
 def _confirmed(diagnosis: Diagnosis, point: Point) -> Gap:
     """Gap of a point on data that took no part in fitting it."""
     split, signal = diagnosis.split, diagnosis.main
@@ -172,11 +157,12 @@ def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
 
     Of effects only where one sigma to either side is possible.
     """
-    for one in fitted_constants(diagnosis):
-        value, (low, high) = one.fit * one.key.factor, one.constant.limits
-        possible = min(one.std * one.key.factor, value - low, high - value)
+    fit = fitted(diagnosis)
+    for constant, value in constants(diagnosis):
+        low, high = constant.limits
+        possible = min(fit.std(constant.path), value - low, high - value)
         # A value at its limit cannot be off both ways: it is told without.
-        yield one.constant.path, one.key.tidy(possible)
+        yield constant.path, CONSTANTS[constant.path].tidy(possible)
     for entry in diagnosis.named:
         known = parameters(entry.effect) if entry.effect else {}
         keys = keys_of(entry)

@@ -8,18 +8,9 @@ from gripperd.config import Provenance
 from gripperd.config.lineage import Added, Covariance, Gap, Recorded
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import WRONG
-from gripperd.diagnose.residuals.constants import Constant
 from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, public, rounded
 from gripperd.diagnose.verdict.named import Named
-from gripperd.diagnose.verdict.recalibrated import Recalibrated, recalibrated
-
-OWNERS = frozenset({"muscle", "valve", "gripper"})
-"""Parts of a model file that have constants."""
-
-
-def is_owned(constant: Constant) -> bool:
-    """Whether a constant of a fit has a place in a model file."""
-    return constant.path.partition(".")[0] in OWNERS
+from gripperd.store.fitted import Fitted, constants, fitted
 
 
 def origin(diagnosis: Diagnosis, gap: Gap, program: str) -> Provenance:
@@ -34,14 +25,14 @@ def origin(diagnosis: Diagnosis, gap: Gap, program: str) -> Provenance:
     program
         Version of the program.
     """
-    recording = diagnosis.recording
+    recording, known = diagnosis.recording, fitted(diagnosis)
     return Provenance(
         program=program,
         recording=Recorded(name=recording.name, sha256=recording.digest),
         seed=diagnosis.seed,
         effects=tuple(map(_added, diagnosis.named)),
-        refitted=tuple(_recalibrated(diagnosis)),
-        covariance=_covariance(diagnosis),
+        refitted=tuple(_recalibrated(diagnosis, known)),
+        covariance=_covariance(known),
         gap=gap,
         heldout_runs=diagnosis.held_out,
     )
@@ -62,54 +53,28 @@ def _added(entry: Named) -> Added:
     )
 
 
-def _recalibrated(diagnosis: Diagnosis) -> Iterator[Added]:
+def _recalibrated(diagnosis: Diagnosis, known: Fitted) -> Iterator[Added]:
     """Constants that moved by more than their tolerance without being called wrong."""
-    freed = diagnosis.explained.freed
-    wrong = {diagnosis.found.problem.constants[index].path for index in freed}
-    for one in fitted_constants(diagnosis):
-        if one.constant.path not in wrong and abs(one.moved) > 1:
+    wrong = {one.path for one in diagnosis.named}
+    for constant, value in constants(diagnosis):
+        path, key = constant.path, CONSTANTS[constant.path]
+        if path not in wrong and abs(value - constant.nominal) > constant.sigma:
             yield Added(
-                name=public(f"{WRONG}{one.constant.path}"),
-                parameters={one.key.text: rounded(one.fit)},
-                std={one.key.text: rounded(one.std)},
+                name=public(f"{WRONG}{path}"),
+                parameters={key.text: rounded(value / key.factor)},
+                std={key.text: rounded(known.std(path) / key.factor)},
             )
 
 
-def fitted_constants(diagnosis: Diagnosis) -> Iterator[Recalibrated]:
-    """Constants with a place in a model file, as they fit."""
-    listed = recalibrated(diagnosis.found.problem, diagnosis.contest.best)
-    return (one for one in listed if is_owned(one.constant))
-
-
-def _covariance(diagnosis: Diagnosis) -> Covariance | None:
-    """Covariance of everything named, in the units of its keys."""
-    names, places, scales = _fitted(diagnosis)
-    if not names:
+def _covariance(known: Fitted) -> Covariance | None:
+    """Covariance of everything fitted, in the units of its keys."""
+    if not known.numbers:
         return None
-    matrix = diagnosis.contest.best.fit.posterior[np.ix_(places, places)]
-    scaled = matrix * np.outer(scales, scales)
-    rows: Sequence[Sequence[float]] = scaled.tolist()
+    units = np.array([number.key.factor for number in known.numbers])
+    rows: Sequence[Sequence[float]] = (
+        known.covariance / np.outer(units, units)
+    ).tolist()
     return Covariance(
-        parameters=tuple(names),
+        parameters=tuple(number.name for number in known.numbers),
         matrix=tuple(tuple(map(rounded, row)) for row in rows),
     )
-
-
-def _fitted(diagnosis: Diagnosis) -> tuple[list[str], list[int], list[float]]:
-    """Names, rows in the covariance of the fit, and units of everything named."""
-    fit, point = diagnosis.contest.best.fit, diagnosis.explained
-    constants = diagnosis.found.problem.constants
-    names, places, scales = [], [], []
-    for index in sorted(point.freed):
-        key = CONSTANTS[constants[index].path]
-        names.append(public(f"{WRONG}{constants[index].path}"))
-        places.append(index)
-        width = float(point.widths[index]) * constants[index].sigma
-        scales.append(width / key.factor)
-    keys = {one.name: keys_of(one) for one in diagnosis.named if one.effect}
-    for place, fitted in enumerate(fit.coordinates, start=point.shifts.size):
-        key = keys[fitted.effect][fitted.parameter]
-        names.append(f"{fitted.effect}.{key.text}")
-        places.append(place)
-        scales.append(fitted.unit / key.factor)
-    return names, places, scales

@@ -111,7 +111,7 @@ PROVENANCES = st.builds(
     | st.builds(
         Covariance,
         parameters=st.just(("creep.slow", "creep.time_s")),
-        matrix=st.tuples(*[st.tuples(st.floats(-1, 1), st.floats(-1, 1))] * 2),
+        matrix=st.floats(-1, 1).map(lambda both: ((1.0, both), (both, 1.0))),
     ),
     gap=st.none()
     | st.builds(
@@ -239,6 +239,29 @@ def test_a_version_is_a_model_file_that_says_where_it_comes_from(
     assert replace(model, lineage=None) == plain
 
 
+def test_numbers_that_were_fitted_together_stay_so_in_a_chain(tmp_path: Path) -> None:
+    names = (
+        "parameter:muscle.diameter_mm, parameter:response.valve_ms,"
+        " parameter:gripper.width_per_contraction, parameter:valve.pressure_low_kPa,"
+        " rubber_elasticity.share, parameter:muscle.friction_coefficient"
+    )
+    matrix = (
+        "[0.04, 1, -0.01, 0.2, 0, 0], [1, 99, 0, 0, 0, 0],"
+        "[-0.01, 0, 0.01, 0, 0, 0], [0.2, 0, 0, 4.0, -0.5, 0],"
+        "[0, 0, 0, -0.5, 0.25, 0], [0, 0, 0, 0, 0, 0]"
+    )
+    covariance = f"seed: 1, covariance: {{parameters: [{names}], matrix: [{matrix}]}}"
+    chain = load_model(
+        versioned(tmp_path, LINEAGE.replace("seed: 1", covariance))
+    ).chain()
+    there = {pair: r for pair, r in chain.correlations.items() if r}
+    assert there == {
+        ("muscle.diameter", "gripper.ratio"): pytest.approx(-0.5),
+        ("muscle.diameter", "valve.pressure_low"): pytest.approx(0.5),
+        ("valve.pressure_low", "effects.rubber_elasticity.share"): pytest.approx(-0.5),
+    }
+
+
 @pytest.mark.parametrize(
     ("good", "bad", "complaint"),
     [
@@ -253,6 +276,17 @@ def test_a_version_is_a_model_file_that_says_where_it_comes_from(
             "seed: 1",
             "seed: 1, covariance: {parameters: [a, b], matrix: [[1, 0], [0]]}",
             "the matrix is not 2 by 2, one row a parameter",
+        ),
+        (
+            "seed: 1",
+            "seed: 1, covariance: {parameters: [a, b], matrix: [[1, 3], [3, 4]]}",
+            "a and b cannot have covariances of 3 and 3: they are the same, and at"
+            " most 2.",
+        ),
+        (
+            "seed: 1",
+            "seed: 1, covariance: {parameters: [a, b], matrix: [[1, 1], [0, 4]]}",
+            "a and b cannot have covariances of 1 and 0",
         ),
         (
             "seed: 1",

@@ -52,6 +52,7 @@ def test_a_whole_model_arrives_with_its_order_and_tolerances(chain: Chain) -> No
             chain.muscle, (Creep(slow=0.02), BraidFriction(form=Form.AS_PRINTED))
         ),
         tolerances={"muscle.diameter": 1e-4, "effects.valve_offset.offset": 200.0},
+        correlations={("muscle.diameter", "effects.valve_offset.offset"): -0.9},
         effects=(ValveOffset(offset=2e3, zero=Zero.SUPPRESSED),),
     )
     # What was worked out and kept must not travel, or hinder.

@@ -241,6 +241,36 @@ def test_the_standard_deviation_is_that_of_many_rigs(
     assert found == pytest.approx(expected, abs=sampling)
 
 
+def test_constants_that_were_fitted_together_are_off_together(chain: Chain) -> None:
+    """Of many rigs, drawn from a covariance in which diameter and modulus cancel."""
+    names = ("diameter", "elastic_modulus", "spring_preload")
+    sigmas = np.array([0.2e-3, 0.1e6, 4.0])
+    coefficients = np.array([[1.0, 0.95, 0.0], [0.95, 1.0, -0.3], [0.0, -0.3, 1.0]])
+    rng, count = np.random.default_rng(20240608), 200_000
+    covariance = coefficients * np.outer(sigmas, sigmas)
+    drawn = rng.multivariate_normal(np.zeros(3), covariance, count).T
+    constants = CONSTANTS | {
+        name: CONSTANTS[name] + off for name, off in zip(names, drawn, strict=True)
+    }
+    pressure = 500e3 * (PAPER_CURRENT - 0.004) / 0.016
+    expected = float(np.std(independent_grip(pressure, 0.044, 1, **constants)))
+    paths = [f"muscle.{name}" for name in names[:2]] + ["gripper.spring_preload"]
+    known = replace(
+        chain,
+        tolerances=dict(zip(paths, sigmas.tolist(), strict=True)),
+        correlations={
+            (paths[0], paths[1]): 0.95,
+            (paths[2], paths[1]): -0.3,
+            ("valve.pressure_low", paths[0]): 0.9,
+        },
+    )
+    sampling = 3 * expected / math.sqrt(2 * count)
+    pressed = PressedObject(0.041)
+    found = known.std(PAPER_CURRENT, pressed)
+    assert found == pytest.approx(expected, abs=sampling)
+    assert found < 0.8 * replace(known, correlations={}).std(PAPER_CURRENT, pressed)
+
+
 def test_constants_known_exactly_leave_no_doubt(chain: Chain) -> None:
     assert chain.predict(PAPER_CURRENT, PressedObject(0.041)).grip_std == 0.0
 
