@@ -44,6 +44,7 @@ class Jaws:
         "_loaded",
         "_lost",
         "_opening_stiffness",
+        "_passed",
         "_ratio",
         "_series",
         "_settings",
@@ -69,6 +70,7 @@ class Jaws:
         self._bending = loaded.jaw_compliance + self._series * linkage.ratio
         # Closing per shortening, with the stretch that the return spring costs.
         self._ratio = linkage.ratio - self._series * linkage.spring_rate
+        self._passed = {way: float(loaded.passed(way)) for way in Direction}
         self._lost = 0.0
         self._stop = linkage.open_width / linkage.ratio
         self.shortening = 0.0
@@ -89,6 +91,13 @@ class Jaws:
         spring = linkage.spring_preload + linkage.spring_rate * self.shortening
         yielding = self._series * spring + self._bending * self.grip
         return self.straight + self._lost + yielding
+
+    @property
+    def pull(self) -> float:
+        """Pull of a muscle that holds the jaws where they are. [N]."""
+        linkage, way = self._linkage, self.direction
+        spring = linkage.spring_preload + linkage.spring_rate * self.shortening
+        return float(self._loaded.pull(self.grip, spring, way))
 
     @property
     def straight(self) -> float:
@@ -136,7 +145,9 @@ class Jaws:
         dt
             [s]
         """
-        linkage = self._linkage
+        linkage, passed = self._linkage, self._passed
+        contracting *= passed[Direction.CONTRACTING]
+        extending *= passed[Direction.EXTENDING]
         start = self.shortening
         push = (
             self.velocity * self._settings.moving_mass / dt

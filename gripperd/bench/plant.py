@@ -1,6 +1,9 @@
 """The simulated gripper: valve current in, pressure, motion and grip force out."""
 
+from dataclasses import replace
 from math import isfinite
+
+import numpy as np
 
 from gripperd.bench.air import Air
 from gripperd.bench.faults import HEALTHY, BenchFaults
@@ -14,6 +17,7 @@ from gripperd.bench.settings import PlantSettings
 from gripperd.errors import InputError
 from gripperd.model import Chain, Direction, StaticMuscle
 from gripperd.model.effect import acts_in_gripper
+from gripperd.model.loaded import LoadedLinkage
 from gripperd.model.track import Track
 from gripperd.units import MILLI
 
@@ -43,6 +47,8 @@ class Plant:
         linkage, muscle = chain.linkage, chain.muscle
         gripper = tuple(filter(acts_in_gripper, chain.effects))
         self._jaws = Jaws(linkage, settings, gripper)
+        loaded = LoadedLinkage(linkage, gripper)
+        self._stretching = loaded if loaded.inside(0.0, 1.0) else None
         shut = float(linkage.contraction(0.0, muscle.rest_length))
         hidden = lively(chain.static.effects, muscle)
         tabled = (each for each in chain.static.effects if each not in hidden)
@@ -193,9 +199,11 @@ class Plant:
             air.leak(self._faults.leak_rate, dt)
         else:
             air.step(self._target, self._faults.leak_rate, dt)
-        contracting, extending = self._pull.at(air.chamber, self.contraction)
+        inside = self._inside
+        contracting, extending = self._pull.at(air.chamber, inside)
         if hidden and now:
-            contracting, extending = hidden.pulls(contracting, extending, now)
+            within = replace(now, contraction=np.array([inside]))
+            contracting, extending = hidden.pulls(contracting, extending, within)
         # A muscle cannot push; the friction of the linkage is there all the same.
         jaws.step(
             max(0.0, contracting) - self._drag,
@@ -222,8 +230,7 @@ class Plant:
     def track(self, step: float) -> Track:
         """The present as effects see it, one sample after a time step. [s]."""
         jaws = self._jaws
-        linkage, length = self._chain.linkage, self._chain.muscle.rest_length
-        contraction = self.contraction
+        contraction, length = self.contraction, self._chain.muscle.rest_length
         moment = Moment(
             time=self.time,
             step=step,
@@ -232,11 +239,18 @@ class Plant:
             contraction=contraction,
             rate=jaws.velocity / length,
             direction=float(jaws.direction),
-            force=float(linkage.muscle_force(jaws.grip, contraction, length)),
+            force=jaws.pull,
             grip=jaws.grip,
             supply=self._supply,
         )
         return self._logbook.track(moment)
+
+    @property
+    def _inside(self) -> float:
+        """Contraction of the muscle itself, where its mount stretches. [-]."""
+        if not self._stretching:
+            return self.contraction
+        return float(self._stretching.inside(self.contraction, self._jaws.pull))
 
     def _disturb(self) -> None:
         """Let the faults act on what is carried."""

@@ -62,14 +62,22 @@ class LinkageFriction(InGripper):
         """Grip force behind the joints. [N]."""
         return grip * (1 - self.loss * direction)
 
+    def taken(self, pull: Real, direction: Real) -> Real:
+        """Grip force that joints take which carry the pull. [N]."""
+        return self.pull_loss * direction * pull
+
     def rest(self) -> Array:
         """A sign that begins with the first travel; none if they turn at once."""
-        return begin(2) if self.turn > 0 else begin(0)
+        return begin(4) if self.turn > 0 else begin(0)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Grip force of each moment. [N]."""
         pull, sign = np.fmax(track.force, 0.0), track.direction
-        if self.turn > 0:
-            changed = np.abs(np.diff(pull, prepend=pull[:1])) * np.sign(sign)
-            sign = dahl(np.cumsum(changed), sign, np.ones_like(pull), self.turn, memory)
-        return np.asarray(self.transmitted(value, sign) - self.pull_loss * sign * pull)
+        if self.turn > 0 and pull.size:
+            # The way of the pull, and the pull, go on from where the last call ended.
+            begun = np.where(np.isnan(memory[2:]), [0.0, pull[0]], memory[2:])
+            gone = np.abs(np.diff(pull, prepend=begun[1])) * np.sign(sign)
+            way = begun[0] + np.cumsum(gone)
+            sign = dahl(way, sign, np.ones_like(pull), self.turn, memory[:2])
+            memory[2:] = way[-1], pull[-1]
+        return np.asarray(self.transmitted(value, sign) - self.taken(pull, sign))

@@ -145,12 +145,19 @@ class Chain:
         DomainError
             When neither muscle nor valve can do that.
         """
-        length = self.muscle.rest_length
-        contraction = self.contraction(opening, grip_force, direction)
-        if self._loaded:
-            grip_force = self._loaded.joints(grip_force, direction)
-        force = self.linkage.muscle_force(grip_force, contraction, length)
+        outside = self.contraction(opening, grip_force, direction)
+        force, contraction = self._pulling(outside, grip_force, direction)
         return self.outlet.current(self.static.pressure(force, contraction, direction))
+
+    def _pulling(
+        self, contraction: Real, grip_force: Real, direction: Real
+    ) -> tuple[Real, Real]:
+        """Pull of the muscle that holds a grip force, and its own contraction."""
+        spring = self.linkage.spring_force(contraction, self.muscle.rest_length)
+        if not self._loaded:
+            return grip_force * self.linkage.ratio + spring, contraction
+        pull = self._loaded.pull(grip_force, spring, direction)
+        return pull, self._loaded.inside(contraction, pull)
 
     def contraction(
         self,
@@ -231,19 +238,20 @@ class Chain:
         opening = pressed.diameter - grip / pressed.stiffness
         length = self.muscle.rest_length
         contraction = float(self.contraction(opening, signed, direction))
+        inside = float(self._pulling(contraction, signed, direction)[1])
         pressure = float(self.outlet.pressure(current))
         return Prediction(
             current=current,
             pressure=pressure,
             opening=opening,
             contraction=contraction,
-            muscle_force=float(self.static.force(pressure, contraction, direction)),
+            muscle_force=float(self.static.force(pressure, inside, direction)),
             spring_force=float(self.linkage.spring_force(contraction, length)),
             grip_force=grip,
             grip_std=self.std(current, pressed, direction),
             direction=direction,
             reaches=signed > 0,
-            extrapolated=self.static.extrapolates(contraction),
+            extrapolated=self.static.extrapolates(inside),
         )
 
     def std(

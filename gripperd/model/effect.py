@@ -179,6 +179,10 @@ class GripperEffect(Effect, Protocol):
         """Grip force it leaves of one, once settled, in proportion to it. [N]."""
         ...
 
+    def taken(self, pull: Real, direction: Real) -> Real:
+        """Grip force it takes on top, once settled, in proportion to the pull. [N]."""
+        ...
+
     def widening(self, grip: Real, pull: Real) -> Real:
         """Opening beyond what the linkage says, in proportion to both loads. [m].
 

@@ -108,6 +108,10 @@ class InGripper(Memoryless):
         """Grip force it leaves once settled: all. [N]."""
         return grip
 
+    def taken(self, pull: Real, direction: Real) -> Real:
+        """None on top. [N]."""
+        return 0.0 * pull
+
 
 class InSensor(Memoryless):
     """It changes what is read, not what is."""

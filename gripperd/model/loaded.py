@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gripperd.errors import DomainError
 from gripperd.model.effect import GripperEffect
 from gripperd.model.linkage import Linkage
 from gripperd.model.real import Real, positive_part
@@ -17,9 +18,12 @@ class LoadedLinkage:
 
     All of them are in proportion to the loads, so the opening is
 
-    .. math:: w = w_0 - r L h + c_j N + c_s F, \quad N = k (F - F_{spring}) / r
+    .. math:: w = w_0 - r L h + c_j N + c_s F, \quad
+              N = k (F - F_{spring}) / r - q F
 
-    with the compliances of jaws and series, and the share k that the joints leave.
+    with the compliances of jaws and series, the share k that the joints leave of the
+    grip, and q that they take of the pull. Inside a stretch that the length takes in,
+    the muscle is shorter than h, see :meth:`inside`.
     """
 
     linkage: Linkage
@@ -54,15 +58,49 @@ class LoadedLinkage:
         linkage = self.linkage
         bent = opening - self.jaw_compliance * positive_part(grip)
         straight = linkage.contraction(bent, rest_length)
-        joints = self.joints(grip, direction)
-        pull = linkage.muscle_force(joints, straight, rest_length)
+        spring = linkage.spring_force(straight, rest_length)
+        pull = self.pull(grip, spring, direction)
         series = self.series_compliance
-        closing = linkage.ratio - series * linkage.spring_rate
+        passed = self.passed(direction)
+        closing = linkage.ratio - series * linkage.spring_rate / passed
         return straight + series * pull / (closing * rest_length)
+
+    def pull(self, grip: Real, spring: Real, direction: Real) -> Real:
+        """Pull of the muscle that holds a grip force against the spring. [N].
+
+        Raises
+        ------
+        DomainError
+            The joints take all that the muscle pulls with.
+        """
+        joints = self.joints(grip, direction) * self.linkage.ratio
+        return (joints + spring) / self.passed(direction)
+
+    def inside(self, contraction: Real, pull: Real) -> Real:
+        """Contraction of the muscle itself, where that of the whole is told. [-]."""
+        pulling = positive_part(pull)
+        return contraction + sum(
+            (effect.hidden_contraction(pulling) for effect in self.effects), 0.0
+        )
 
     def joints(self, grip: Real, direction: Real) -> Real:
         """Grip force before the joints take their share. [N]."""
         return grip / self._kept(direction)
+
+    def passed(self, direction: Real) -> Real:
+        """Share of the pull that comes through joints which carry it. [-].
+
+        Raises
+        ------
+        DomainError
+            None comes through: they lock.
+        """
+        ratio = self.linkage.ratio
+        share = 1 - ratio * self._taken(direction) / self._kept(direction)
+        if np.any(np.less_equal(share, 0)):
+            message = "the friction of the joints takes all that the muscle pulls with"
+            raise DomainError(message, key="pull_loss")
+        return share
 
     def grip_force(
         self,
@@ -87,13 +125,15 @@ class LoadedLinkage:
         rest_length
             Of the muscle. [m]
         """
-        kept = self._kept(direction)
+        kept, taken = self._kept(direction), self._taken(direction)
+        linkage = self.linkage
 
         def surplus(grip: Real) -> Real:
             contraction = self.contraction(opening, grip, direction, rest_length)
-            pull = tension(contraction)
-            force = self.linkage.grip_force(pull, contraction, rest_length)
-            return kept * force - grip
+            spring = linkage.spring_force(contraction, rest_length)
+            held = self.pull(grip, spring, direction)
+            pull = tension(self.inside(contraction, held))
+            return kept * (pull - spring) / linkage.ratio - taken * pull - grip
 
         shut = self.contraction(opening, 0.0, direction, rest_length)
         slack = kept * self.linkage.grip_force(0.0, shut, rest_length)
@@ -107,6 +147,10 @@ class LoadedLinkage:
         for effect in self.effects:
             share = effect.transmitted(share, direction)
         return share
+
+    def _taken(self, direction: Real) -> Real:
+        """Grip force that joints take per pull of the muscle. [-]."""
+        return sum((effect.taken(1.0, direction) for effect in self.effects), 0.0)
 
     def _widening(self, grip: float, pull: float) -> float:
         return sum(float(effect.widening(grip, pull)) for effect in self.effects)

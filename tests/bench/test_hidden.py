@@ -269,12 +269,34 @@ def test_rub_and_bend_together_grip_as_predicted(chain: Chain) -> None:
     effects = (
         LinkageFriction(loss=0.1),
         JawCompliance(compliance=2e-5),
-        SeriesCompliance(compliance=2e-6),
+        SeriesCompliance(compliance=2e-6, shortening=2e-5),
     )
     plant = grasping(chain, *effects)
     seen = with_effect(chain, *effects).predict(CURRENT, PressedObject(SIZE, STIFFNESS))
     assert plant.grip == pytest.approx(seen.grip_force, rel=2e-3)
     assert plant.opening == pytest.approx(SIZE - plant.grip / STIFFNESS, abs=5e-6)
+
+
+def test_joints_that_carry_the_pull_take_from_the_grip(chain: Chain) -> None:
+    pressed, loss = PressedObject(SIZE, STIFFNESS), 0.02
+    plant = grasping(chain, LinkageFriction(pull_loss=loss))
+    seen = with_effect(chain, LinkageFriction(pull_loss=loss)).predict(CURRENT, pressed)
+    assert plant.grip == pytest.approx(seen.grip_force, rel=2e-3)
+    free = chain.predict(CURRENT, pressed)
+    # What the object yields less for it is little: the joints take 2 % of the pull.
+    lost = free.grip_force - seen.grip_force
+    assert lost == pytest.approx(loss * seen.muscle_force, rel=0.2)
+
+
+def test_a_mount_that_stretches_lets_the_muscle_shorten(chain: Chain) -> None:
+    pressed, effect = PressedObject(SIZE, STIFFNESS), SeriesCompliance(shortening=3e-5)
+    plant = grasping(chain, effect)
+    seen = with_effect(chain, effect).predict(CURRENT, pressed)
+    assert plant.grip == pytest.approx(seen.grip_force, rel=2e-3)
+    inside = seen.contraction + 3e-5 * seen.muscle_force
+    tension = chain.static.tension(seen.pressure, inside)
+    assert seen.muscle_force == pytest.approx(float(tension), rel=1e-6)
+    assert chain.predict(CURRENT, pressed).grip_force > 1.1 * seen.grip_force
 
 
 def test_joints_that_rub_hold_harder_once_the_pressure_is_eased(chain: Chain) -> None:

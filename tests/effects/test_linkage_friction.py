@@ -5,7 +5,7 @@ import pytest
 
 from gripperd.effects.linkage_friction import LinkageFriction
 from gripperd.model import Direction, Muscle
-from tests.effects.tracks import track_of
+from tests.effects.tracks import eventful, samples, track_of
 
 
 def test_grip_is_lost_closing_and_won_opening(muscle: Muscle) -> None:
@@ -40,3 +40,16 @@ def test_a_load_that_stays_turns_nothing(muscle: Muscle) -> None:
     track = track_of(muscle, force=500.0, direction=np.array([1.0, -1.0, -1.0]))
     found = effect.along(np.full(3, 50.0), track, effect.rest())
     assert found == pytest.approx(45.0)
+
+
+def test_joints_that_turn_go_on_from_call_to_call(muscle: Muscle) -> None:
+    effect = LinkageFriction(pull_loss=0.05, turn=50.0)
+    track = eventful(muscle)
+    whole = effect.along(np.full_like(track.time, 100.0), track, effect.rest())
+    memory = effect.rest()
+    piecewise = [
+        effect.along(np.array([100.0]), sample, memory).item()
+        for sample in samples(track)
+    ]
+    assert piecewise == pytest.approx(whole, abs=1e-9)
+    assert np.ptp(whole) > 20

@@ -51,6 +51,7 @@ def eventful(muscle: Muscle) -> Track:
         contraction=0.1 + np.cumsum(rate) * 0.2,
         rate=rate,
         direction=np.where(rate < 0, -1.0, 1.0),
+        force=300.0 * (1 - np.cos(phase)),
         temperature=293.15 + time,
         cycle=np.floor(time / 8.0),
         repeat=np.floor(time / 8.0),

@@ -9,6 +9,7 @@ from scipy.optimize import fsolve
 from gripperd.effects.jaw_compliance import JawCompliance
 from gripperd.effects.linkage_friction import LinkageFriction
 from gripperd.effects.series_compliance import SeriesCompliance
+from gripperd.errors import DomainError
 from gripperd.model import Direction, Linkage
 from gripperd.model.loaded import LoadedLinkage
 from gripperd.model.real import Real
@@ -16,12 +17,13 @@ from gripperd.model.real import Real
 LINKAGE = Linkage(open_width=0.085, ratio=4.0, spring_preload=240.0, spring_rate=1000.0)
 LENGTH = 0.25
 JAW, SERIES, LOSS = 2e-5, 1e-5, 0.1
+TAKEN, STRETCH = 0.015, 2e-5
 LOADED = LoadedLinkage(
     LINKAGE,
     (
         JawCompliance(compliance=JAW),
-        SeriesCompliance(compliance=SERIES),
-        LinkageFriction(loss=LOSS),
+        SeriesCompliance(compliance=SERIES, shortening=STRETCH),
+        LinkageFriction(loss=LOSS, pull_loss=TAKEN),
     ),
 )
 
@@ -37,27 +39,32 @@ def test_pull_grip_and_bending_are_in_balance(
     opening: float, direction: Direction
 ) -> None:
     def off(unknown: np.ndarray) -> list[float]:
-        grip, shortening = unknown
-        pull = 600.0 - 4000.0 * shortening / 0.25
+        grip, shortening, pull = unknown
         spring = 240.0 + 1000.0 * shortening
         bent = JAW * max(grip, 0.0) + SERIES * pull
+        share = 1 - LOSS * direction
         return [
-            (pull - spring) / 4 * (1 - LOSS * direction) - grip,
+            600.0 - 4000.0 * (shortening / 0.25 + STRETCH * pull) - pull,
+            (pull - spring) / 4 * share - TAKEN * direction * pull - grip,
             (0.085 - 4 * shortening + bent - opening) * 1e3,
         ]
 
-    grip, shortening = fsolve(off, [50.0, 0.01], xtol=1e-10)
+    grip, shortening, pull = fsolve(off, [50.0, 0.01, 500.0], xtol=1e-10)
     found = LOADED.grip_force(tension, opening, direction, LENGTH)
     assert found == pytest.approx(grip, rel=1e-7)
     contraction = LOADED.contraction(opening, found, direction, LENGTH)
     assert contraction == pytest.approx(shortening / 0.25, rel=1e-7)
+    spring = LINKAGE.spring_force(contraction, LENGTH)
+    assert LOADED.pull(found, spring, direction) == pytest.approx(pull, rel=1e-7)
+    inside = LOADED.inside(contraction, pull)
+    assert inside == pytest.approx(shortening / 0.25 + STRETCH * pull, rel=1e-7)
 
 
 def test_a_spring_too_strong_for_the_muscle_holds_the_jaws_off() -> None:
     weak = LOADED.grip_force(lambda h: 0.3 * tension(h), 0.060, 1.0, LENGTH)
-    assert weak == pytest.approx(
-        0.9 * (0.3 * tension(0.025) - 240 - 6.25) / 4, rel=0.05
-    )
+    pull = 0.3 * tension(0.025)
+    expected = 0.9 * (pull - 240 - 6.25) / 4 - TAKEN * pull
+    assert weak == pytest.approx(expected, rel=0.05)
     assert weak < 0
 
 
@@ -91,3 +98,12 @@ def test_many_openings_at_once_equal_one_by_one() -> None:
 def test_joints_carry_more_than_the_jaws_while_closing() -> None:
     assert LOADED.joints(45.0, Direction.CONTRACTING) == pytest.approx(50.0)
     assert LOADED.joints(55.0, Direction.EXTENDING) == pytest.approx(50.0)
+
+
+def test_joints_that_lock_are_an_error_and_not_a_grip() -> None:
+    """Of the pull a quarter comes to each jaw, and they take more."""
+    locked = LoadedLinkage(LINKAGE, (LinkageFriction(pull_loss=0.26),))
+    with pytest.raises(DomainError, match="takes all that the muscle") as refused:
+        locked.grip_force(tension, 0.06, Direction.CONTRACTING, LENGTH)
+    assert refused.value.key == "pull_loss"
+    assert locked.grip_force(tension, 0.06, Direction.EXTENDING, LENGTH) > 0
