@@ -97,6 +97,11 @@ class PressureHysteresis(InMuscle):
             return self
         return replace(self, radius=BARE * self.radius, width=BARE * self.width)
 
+    @property
+    def affine(self) -> bool:
+        """Only of springs: what is up of relays bends with pressure."""
+        return self.hysteron is Hysteron.STOP or not self.relays
+
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Once all springs slip; contracting is inflating. [N]."""
         lever = self._lever(at.contraction, muscle)

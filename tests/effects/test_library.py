@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from gripperd.effects import EFFECTS
-from gripperd.model import Muscle
+from gripperd.model import Direction, Muscle, StaticMuscle
 from gripperd.model.effect import Effect, Stage
+from gripperd.model.kinds import InMuscle
 from gripperd.model.parameter import in_use, parameters, words
 from gripperd.model.track import Array
 from gripperd.units import SI_PER_UNIT, split
@@ -60,6 +61,9 @@ every = pytest.mark.parametrize("kind", EFFECTS.values(), ids=EFFECTS)
 of_the_muscle = pytest.mark.parametrize("kind", MUSCLE, ids=lambda kind: kind.name)
 each_of_the_muscle = pytest.mark.parametrize(
     "effect", [one for kind in MUSCLE for one in spoken(kind)], ids=told
+)
+every_one = pytest.mark.parametrize(
+    "effect", [one for kind in EFFECTS.values() for one in spoken(kind)], ids=told
 )
 with_amplitude = pytest.mark.parametrize(
     "effect",
@@ -190,7 +194,7 @@ def test_amplitudes_add_up(effect: Effect, muscle: Muscle) -> None:
     assert together == pytest.approx(weights @ np.array(alone), abs=1e-9)
 
 
-@each_of_the_muscle
+@every_one
 def test_a_run_given_whole_or_sample_by_sample_is_the_same(
     effect: Effect, muscle: Muscle
 ) -> None:
@@ -202,3 +206,16 @@ def test_a_run_given_whole_or_sample_by_sample_is_the_same(
         effect.along(pull[:1], sample, memory).item() for sample in samples(track)
     ]
     assert piecewise == pytest.approx(whole, abs=1e-9)
+
+
+@each_of_the_muscle
+@pytest.mark.parametrize("direction", Direction)
+def test_the_pressure_for_a_force_gives_that_force(
+    effect: Effect, direction: Direction, muscle: Muscle
+) -> None:
+    effect = with_amplitudes(effect, np.ones(4))
+    assert isinstance(effect, InMuscle)
+    static = StaticMuscle(muscle, (effect,))
+    forces = np.linspace(50.0, 400.0, 8)
+    found = static.pressure(forces, 0.08, direction)
+    assert static.force(found, 0.08, direction) == pytest.approx(forces, rel=1e-7)
