@@ -44,10 +44,11 @@ class BraidExtensibility(InMuscle):
     )  # fmt: skip
     remedy: ClassVar[str] = "use a muscle with stiffer strands, or add their stretch"
 
-    strain: float = amplitude(unit="per_MPa", scale=0.01e-6, low=0.0, high=0.1e-6)
-    """Stretch of the strands per gauge pressure at rest length, a. [1/Pa]"""
+    strain: float = amplitude(unit="per_MPa", scale=0.01e-6, low=0.0, high=0.9e-6)
+    """Stretch of the strands per gauge pressure at rest length, a: 0.42/MPa where soft
+    strands cost 70 % of the pull at 6 bar. [1/Pa]"""
     strain_contracted: float = amplitude(
-        unit="per_MPa", scale=0.002e-6, low=-0.05e-6, high=0.05e-6
+        unit="per_MPa", scale=0.002e-6, low=-0.1e-6, high=0.1e-6
     )
     """What comes on top at a contraction of 0.1, in proportion to it, b. [1/Pa]"""
 

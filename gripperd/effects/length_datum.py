@@ -16,7 +16,11 @@ from gripperd.model.track import Array, Track
 
 @dataclass(frozen=True, slots=True)
 class LengthDatum(InSensor):
-    r"""The rest length was taken wrongly: :math:`h_r = h + s`."""
+    r"""The contraction is told from a wrong zero: :math:`h_r = h + s`.
+
+    A rest length that was taken wrongly shifts it so near rest; by the ratio of both
+    lengths less, the shorter the muscle is.
+    """
 
     name: ClassVar[str] = "length_datum"
     needs: ClassVar[frozenset[str]] = frozenset({"contraction"})

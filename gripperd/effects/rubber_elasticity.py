@@ -30,8 +30,8 @@ class RubberElasticity(ElasticCurve):
     name: ClassVar[str] = "rubber_elasticity"
     needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
     shows: ClassVar[str] = (
-        "the force is too high by an amount that depends on contraction alone, the"
-        " same at all pressures, and vanishes at rest length"
+        "the muscle pulls less than the model says, by an amount that depends on"
+        " contraction alone, the same at all pressures, and vanishes at rest length"
     )
     confused_with: ClassVar[tuple[str, ...]] = ("nonlinear_elasticity",)
     remedy: ClassVar[str] = "add the bladder's modulus and wall to the model"

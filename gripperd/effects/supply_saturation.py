@@ -25,7 +25,8 @@ class SupplySaturation(InValve):
 
     with x the place on the line from :math:`p_l` to :math:`p_h` and m what the supply
     has lost since its highest, where that is measured. The corner is rounded as
-    :math:`w \ln(1 + e^{y/w})`, w the softness times the span.
+    :math:`w \ln(1 + e^{y/w})`, w the softness times the span, less what that is at the
+    low end of the line.
     """
 
     name: ClassVar[str] = "supply_saturation"
@@ -36,7 +37,7 @@ class SupplySaturation(InValve):
     confused_with: ClassVar[tuple[str, ...]] = ("valve_nonlinearity", "valve_gain")
     remedy: ClassVar[str] = "raise the supply pressure, or keep below the limit"
 
-    share: float = amplitude(unit=None, scale=1.0, low=0.0, high=1.2)
+    share: float = amplitude(unit=None, scale=0.5, low=0.0, high=1.0)
     """Part of what is asked above the ceiling that does not come; 1 clips. [-]"""
     sag: float = amplitude(unit=None, scale=0.1, low=-1.0, high=1.0)
     """Pressure lost at the top of the line per loss of supply. [Pa/Pa]"""
@@ -64,4 +65,6 @@ class SupplySaturation(InValve):
             return positive_part(above)
         # What was not measured is not known here either.
         with np.errstate(invalid="ignore"):
-            return round_off * np.logaddexp(0.0, above / round_off)
+            rounded: Real = round_off * np.logaddexp(0.0, above / round_off)
+        empty = float(np.logaddexp(0.0, -self.limit / self.softness))
+        return rounded - round_off * empty

@@ -42,7 +42,7 @@ class TemperatureStiffness(InMuscle):
     )
 
     modulus: float = amplitude(unit="per_K", scale=0.005, low=-0.05, high=0.05)
-    """Relative change of the modulus, a. [1/K]"""
+    """Relative change of the modulus that eq. (5) has, a. [1/K]"""
     modulus_square: float = amplitude(unit="per_K2", scale=2e-4, low=-5e-3, high=5e-3)
     """Its change with the square of the difference, b. [1/K²]"""
 

@@ -33,8 +33,8 @@ class ThresholdPressure(InMuscle):
     name: ClassVar[str] = "threshold_pressure"
     needs: ClassVar[frozenset[str]] = frozenset({"force", "pressure", "contraction"})
     shows: ClassVar[str] = (
-        "the force starts late: above a threshold it is too high by as much as that"
-        " pressure would pull, at every length"
+        "the force starts late: above a threshold the muscle pulls less than the model"
+        " says, by as much as that pressure would pull, at every length"
     )
     confused_with: ClassVar[tuple[str, ...]] = (
         "pressure_sensor_bias", "valve_offset", "ambient_pressure",

@@ -19,7 +19,7 @@ from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
-from gripperd.model.real import Real
+from gripperd.model.real import Real, positive_part
 
 WORKING_PRESSURE = 300e3
 """Gauge pressure at which the pressure damping has its amplitude. [Pa]"""
@@ -59,7 +59,8 @@ class ViscousFriction(InMuscle):
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Against contraction while contracting, with it while extending. [N]."""
-        load = at.pressure / WORKING_PRESSURE
+        # Under vacuum no strand is pressed: it damps less, and never pushes along.
+        load = positive_part(at.pressure) / WORKING_PRESSURE
         linear = (self.damping + self.pressure_damping * load) * at.rate
         share: Real = np.arcsinh(at.rate / self.flow) / np.arcsinh(BRISK / self.flow)
         return -linear - self.sublinear * share

@@ -32,6 +32,14 @@ def test_a_soft_corner_is_rounded_and_far_from_it_the_same() -> None:
     assert effect.settled(900e3, SPAN) == pytest.approx(400e3, abs=0.01)
 
 
+@pytest.mark.parametrize(("limit", "softness"), [(0.05, 0.2), (0.7, 0.2), (0.9, 0.03)])
+def test_nothing_comes_where_nothing_is_asked(limit: float, softness: float) -> None:
+    effect = SupplySaturation(share=1.0, limit=limit, softness=softness)
+    settled = np.asarray(effect.settled(np.linspace(0.0, 500e3, 50), SPAN))
+    assert settled[0] == pytest.approx(0.0, abs=1e-9)
+    assert np.all(np.diff(settled) > 0)
+
+
 def test_a_reading_that_is_missing_stays_so_in_silence() -> None:
     effect = SupplySaturation(share=1.0, limit=0.8, softness=0.03)
     asked = np.array([np.nan, 0.0])

@@ -44,3 +44,10 @@ def test_pressure_damping_is_proportional_to_pressure(muscle: Muscle) -> None:
     assert force(muscle, pressed) == pytest.approx(0.0)
     expected = [80.0, 20.0, 0.0, -20.0, -80.0]
     assert force(muscle, pressed, 600e3) == pytest.approx(expected)
+
+
+def test_a_muscle_under_vacuum_is_not_driven_by_its_damping(muscle: Muscle) -> None:
+    """Nothing is between the strands: work would come from nowhere."""
+    effect = ViscousFriction(pressure_damping=500.0)
+    track = track_of(muscle, pressure=-5e3, rate=np.array([0.1, -0.1]))
+    assert effect.along(np.zeros(2), track, effect.rest()) == pytest.approx(0.0)
