@@ -20,7 +20,7 @@ from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
-from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried
+from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried, settled
 from gripperd.model.preisach import BARE, NARROWEST, PARAMETERS, Hysteron, Relays
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
@@ -120,9 +120,11 @@ class PreslidingHysteresis(InMuscle):
         return replace(self, radius=BARE * self.radius, width=BARE * self.width)
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """Once all springs slip, against the travel; of relays what is up. [N]."""
+        """Of springs after a way from rest or a long way back; of relays, up. [N]."""
         if self.hysteron is Hysteron.STOP:
-            return -at.direction * (self.near + self.middle + self.far)
+            springs = (self.near, self.middle, self.far)
+            path = at.contraction, at.direction, self.contraction
+            return -settled(*path, springs, self.kept)
         return self.relays * self._relays.settled(at.contraction, at.direction)
 
     def rest(self) -> Array:

@@ -19,7 +19,7 @@ from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
-from gripperd.model.prandtl import at_rest, begin_at, carried
+from gripperd.model.prandtl import at_rest, begin_at, carried, reaches, settled
 from gripperd.model.preisach import BARE, NARROWEST, PARAMETERS, Hysteron, Relays
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
@@ -103,12 +103,21 @@ class PressureHysteresis(InMuscle):
         return self.hysteron is Hysteron.STOP or not self.relays
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
-        """Once all springs slip; contracting is inflating. [N]."""
+        """After a way from no pressure or a long way back; contracting inflates."""
         lever = self._lever(at.contraction, muscle)
         if self.hysteron is Hysteron.STOP:
-            return -at.direction * (self.near + self.middle + self.far) * lever
+            springs = (self.near, self.middle, self.far)
+            path = at.pressure, at.direction, self.pressure
+            return -settled(*path, springs, self.kept) * lever
         up = self._relays.settled(at.pressure, at.direction)
         return self.relays * up * lever
+
+    def kinks(
+        self, contraction: Real, diameter_ratio: Real, muscle: Muscle
+    ) -> tuple[Real, ...]:
+        """Where a spring begins to carry, and where each slips. [Pa]."""
+        slips = ((1 + self.kept) * reach for reach in reaches(self.pressure))
+        return tuple(0.0 * contraction + at for at in (0.0, *slips))
 
     def rest(self) -> Array:
         """Three springs without load."""

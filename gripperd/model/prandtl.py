@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripperd.model.memory import begin, stop
+from gripperd.model.real import Real, positive_part
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -21,6 +22,11 @@ is exponential, a hyperbolic tangent or a hyperbola to 2 % of its height, RMS. [
 
 Forces: TypeAlias = tuple[float, float, float]
 """What each spring carries once it slips, that of the smallest radius first."""
+
+
+def reaches(radius: float) -> tuple[float, ...]:
+    """Ways from rest until each spring slips, the smallest first; as the radius."""
+    return tuple(radius * SPREAD**place for place in (-1, 0, 1))
 
 
 def at_rest() -> Array:
@@ -47,9 +53,9 @@ def begin_at(
         Share that is left at 0 of what a long way down to it loads. [0..1]
     """
     if signal.size and np.isnan(memory).all():
-        reaches = radius * SPREAD ** np.arange(-1.0, 2.0)
-        came = np.clip(signal[0], -(1 + kept) * reaches, (1 + kept) * reaches)
-        memory[:] = signal[0] - np.maximum(load * came - kept * reaches, -reaches)
+        ways = np.array(reaches(radius))
+        came = np.clip(signal[0], -(1 + kept) * ways, (1 + kept) * ways)
+        memory[:] = signal[0] - np.maximum(load * came - kept * ways, -ways)
 
 
 def begin_after(signal: Array, radius: float, came: float, memory: Array) -> None:
@@ -58,7 +64,36 @@ def begin_after(signal: Array, radius: float, came: float, memory: Array) -> Non
     ``came`` says which way that was, 1 or -1, or a share of it. [-1..1]
     """
     if signal.size and np.isnan(memory).all():
-        memory[:] = signal[0] - came * radius * SPREAD ** np.arange(-1.0, 2.0)
+        memory[:] = signal[0] - came * np.array(reaches(radius))
+
+
+def settled(
+    signal: Real, way: Real, radius: float, forces: Forces, kept: float = 0.0
+) -> Real:
+    """Force that the springs carry after a way up from 0, or after a long way back.
+
+    Parameters
+    ----------
+    signal
+        Where the way ends.
+    way
+        Above 0 for up.
+    radius, forces
+        As :func:`carried` has them.
+    kept
+        As :func:`begin_at` has it.
+
+    Returns
+    -------
+    Force, of springs that all slip unless the way up was too short for it. [N]
+    """
+    rising = 1.0 * np.greater(way, 0)
+    loads = (
+        np.minimum(positive_part(signal) / reach - kept, 1.0)
+        for reach in reaches(radius)
+    )
+    wound = sum(force * load for force, load in zip(forces, loads, strict=True))
+    return rising * wound + (1 - rising) * way * sum(forces)
 
 
 def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Array:
@@ -82,8 +117,7 @@ def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Arra
         springs that carry nothing, now or in any other call.
     """
     total = np.zeros_like(signal)
-    for index, force in enumerate(forces):
+    for index, (force, reach) in enumerate(zip(forces, reaches(radius), strict=True)):
         if force:
-            reach = radius * SPREAD ** (index - 1)
             total += force / reach * stop(signal, reach, memory[index : index + 1])
     return total

@@ -22,6 +22,8 @@ from gripperd.effects.jaw_compliance import JawCompliance
 from gripperd.effects.leak import Leak
 from gripperd.effects.linkage_backlash import LinkageBacklash
 from gripperd.effects.linkage_friction import LinkageFriction
+from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.effects.pressure_hysteresis import PressureHysteresis
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.series_compliance import SeriesCompliance
 from gripperd.effects.supply_saturation import SupplySaturation
@@ -275,6 +277,28 @@ def test_rub_and_bend_together_grip_as_predicted(chain: Chain) -> None:
     seen = with_effect(chain, *effects).predict(CURRENT, PressedObject(SIZE, STIFFNESS))
     assert plant.grip == pytest.approx(seen.grip_force, rel=2e-3)
     assert plant.opening == pytest.approx(SIZE - plant.grip / STIFFNESS, abs=5e-6)
+
+
+@pytest.mark.parametrize(
+    "effect",
+    [
+        PreslidingHysteresis(near=30.0, middle=30.0, far=30.0, contraction=0.1),
+        PressureHysteresis(near=30.0, middle=30.0, far=30.0, pressure=300e3),
+    ],
+    ids=lambda effect: effect.name,
+)
+def test_springs_carry_what_a_grasp_has_wound_them_up(
+    chain: Chain, effect: Effect
+) -> None:
+    """The way to the object is too short to make them slip: 90 N they never carry."""
+    plant = grasping(chain, effect)
+    pressed = PressedObject(SIZE, STIFFNESS)
+    seen = with_effect(chain, effect).predict(CURRENT, pressed)
+    assert plant.grip == pytest.approx(seen.grip_force, rel=3e-3)
+    lost = chain.predict(CURRENT, pressed).muscle_force - seen.muscle_force
+    assert 20 < lost < 70
+    again = with_effect(chain, effect).current_for(seen.grip_force, pressed)
+    assert again == pytest.approx(CURRENT, rel=1e-9)
 
 
 def test_joints_that_carry_the_pull_take_from_the_grip(chain: Chain) -> None:
