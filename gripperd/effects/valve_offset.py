@@ -8,14 +8,16 @@ References
        suppression.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
 
 from gripperd.model.kinds import InValve
-from gripperd.model.parameter import amplitude, choice
+from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -38,7 +40,8 @@ class ValveOffset(InValve):
     r"""The line of the regulator is shifted: :math:`p = p_0 + b`.
 
     All of it, or only what lies above the zero that the regulator suppresses; there
-    and below, it vents and sucks nothing.
+    and below, it vents and sucks nothing. A pilot that opens by and by brings the
+    offset by :math:`b (1 - e^{-p_0 / p_f})`, see :attr:`fade`.
     """
 
     name: ClassVar[str] = "valve_offset"
@@ -47,6 +50,9 @@ class ValveOffset(InValve):
         "measured pressure is off against the current by a constant, while the force"
         " fits the measured pressure"
     )
+    idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
+        {Zero.REGULATED: ("fade",)}
+    )
     confused_with: ClassVar[tuple[str, ...]] = (
         "pressure_sensor_bias", "ambient_pressure",
     )  # fmt: skip
@@ -54,6 +60,10 @@ class ValveOffset(InValve):
 
     offset: float = amplitude(unit="kPa", scale=5e3, low=-100e3, high=100e3)
     """Pressure beyond the line. [Pa]"""
+    fade: float = shape(
+        unit="kPa", starts=(0.0, 10e3), low=0.0, high=30e3, switches=True
+    )
+    """Pressure over which it comes where the zero is suppressed; 0 for all at once."""
     zero: Zero = choice(Zero)  # noqa: RUF009  (declares)
     """What it does when it is asked for nothing."""
 
@@ -69,10 +79,13 @@ class ValveOffset(InValve):
         if self.zero is Zero.REGULATED:
             return pressure + self.offset
         low, high = span
-        shifted: Real
+        above: Real = np.subtract(asked, low)
+        awake: Real = 1.0
+        if self.fade > 0:
+            awake = -np.expm1(-np.maximum(above, 0.0) / self.fade)
+        elif self.offset > 0:
+            awake = np.heaviside(above - ZERO * (high - low), 0.0)
+        shifted = pressure + awake * self.offset
         if self.offset < 0:
-            shifted = np.maximum(pressure + self.offset, np.minimum(pressure, low))
-        else:
-            awake = np.heaviside(asked - low - ZERO * (high - low), 0.0)
-            shifted = pressure + awake * self.offset
+            shifted = np.maximum(shifted, np.minimum(pressure, low))
         return shifted

@@ -62,9 +62,22 @@ def test_it_vents_at_once_when_nothing_is_asked_though_the_pressure_lags(
     assert found == pytest.approx([68e3, 40e3, 25e3])
 
 
+@pytest.mark.parametrize("offset", [8e3, -8e3])
+def test_a_pilot_that_opens_by_and_by_brings_the_offset(
+    muscle: Muscle, offset: float
+) -> None:
+    """By 63 % of it in the first 10 kPa, and never below what a vented muscle has."""
+    effect = ValveOffset(offset, fade=10e3, zero=Zero.SUPPRESSED)
+    asked = np.array([0.0, 10e3, 30e3, 400e3])
+    found = effect.along(asked, track_of(muscle, command=asked), effect.rest())
+    shift = offset * np.array([0.0, 1 - 1 / np.e, 1 - 1 / np.e**3, 1.0])
+    assert found == pytest.approx(np.maximum(asked + shift, 0.0), abs=1e-6)
+    assert effect.settled(asked, (0.0, 500e3)) == pytest.approx(found)
+
+
 def _begins_softly(command: Array, offset: float) -> Array:
     """An offset that sets in over some percent of the range, as nothing is asked."""
-    return np.asarray(command - offset * np.expm1(-command / 10e3))
+    return np.asarray(command + offset * np.tanh(command / 15e3))
 
 
 def _stays(command: Array, offset: float) -> Array:
