@@ -122,7 +122,7 @@ def _inner(
     """Sweeps that others reach as far as, holds apart, and in which inputs they do."""
     top = {
         name: max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
-        for name in COMMANDED
+        for name in (*COMMANDED, "contraction")
     }
     moved = [index for index in later if not _still(courses[index], top)]
     for columns in (CONDITIONS, PLACES):
@@ -190,12 +190,15 @@ def _travelled(course: Course) -> bool:
 def _still(course: Course, top: Mapping[str, float]) -> bool:
     """Whether hardly anything moves: a hold is what drift and leaks are known from.
 
-    Most of its samples lie within a small part of what it went through to get there.
-    The pressure of a valve that is shut may sink, at a command that stays.
+    Most of its samples lie within a small part of what it went through to get there,
+    be it at another length. The pressure of a valve that is shut may sink, at a command
+    that stays.
     """
-    return not _travelled(course) and any(
-        _rests(course.level(name), HELD * top[name]) for name in COMMANDED
-    )
+    rests = {
+        name: _rests(course.level(name), HELD * most) for name, most in top.items()
+    }
+    stays = rests["contraction"] or not _travelled(course)
+    return stays and any(rests[name] for name in COMMANDED)
 
 
 def _rests(level: Array, most: float) -> bool:

@@ -174,6 +174,27 @@ def test_no_hold_is_spared_though_its_valve_is_shut_and_leaks(
     assert (spared == "held") is not commanded
 
 
+@pytest.mark.parametrize("arrives", [True, False])
+def test_no_hold_is_spared_though_it_goes_to_its_length_first(
+    blank: Problem, *, arrives: bool
+) -> None:
+    named = {course.run: course for course in blank.courses}
+    held = _held(named["b2"])
+    travel = held.smooth["contraction"]
+    way = np.linspace(0.0, 1.0, len(held))
+    there = np.minimum(way / 0.15, 1.0) if arrives else way
+    level = float(np.median(travel.value))
+    going = replace(
+        held,
+        # Where it stands still at last it has come back by a hair.
+        direction=np.where(way < 0.14, 1.0, -1.0),
+        smooth={**held.smooth, "contraction": travel._replace(value=level * there)},
+    )
+    courses = (named["a"], *3 * (going,), *(named[name] for name in "bcd"))
+    spared = split(replace(blank, courses=courses)).runs
+    assert ("held" in spared) is not arrives
+
+
 def _faster(
     problem: Problem, names: set[str], times: float, what: str = "contraction"
 ) -> Problem:
