@@ -23,8 +23,8 @@ from gripperd.diagnose.readings.recording import Run
 from gripperd.model.compiled import compiled
 from gripperd.model.track import Array
 
-READ = 1e-5
-"""Noise from which a current was read, not written: three steps of 12 bits. [A]"""
+READ = 5e-6
+"""Noise from which a current was read, not written: a step of 12 bits is less. [A]"""
 FOLLOWED = 0.3
 """Share of its wiggles that the pressure follows if they are the command's. [-]"""
 LATEST = 4
@@ -78,12 +78,15 @@ def _is_followed(sweeps: Sequence[Run]) -> bool:
             current, pressure = sweep.columns["current"], sweep.columns["pressure"]
             known = np.isfinite(current) & np.isfinite(pressure)
             if known.sum() > LONG:
-                pairs.append((current[known], pressure[known]))
+                time = sweep.columns["time"][known]
+                pairs.append((time, current[known], pressure[known]))
     if not pairs:
         return True
-    currents, pressures = (np.concatenate(one) for one in zip(*pairs, strict=True))
+    _, currents, pressures = (np.concatenate(one) for one in zip(*pairs, strict=True))
     gain = float(np.polyfit(currents, pressures, 1)[0])
-    wiggles = [(_wiggle(gain * told), _wiggle(got)) for told, got in pairs]
+    wiggles = [
+        (_wiggle(gain * told, time), _wiggle(got, time)) for time, told, got in pairs
+    ]
     power = sum(float(asked @ asked) for asked, _ in wiggles)
     followed = max(
         sum(float(asked[: asked.size - lag] @ got[lag:]) for asked, got in wiggles)
@@ -92,9 +95,13 @@ def _is_followed(sweeps: Sequence[Run]) -> bool:
     return followed > FOLLOWED * power
 
 
-def _wiggle(column: Array) -> Array:
-    """Second differences; 0 at a corner or a step, where they are far larger."""
-    bend = np.diff(column, 2)
+def _wiggle(column: Array, time: Array) -> Array:
+    """Readings off the line between their neighbours; 0 at a corner or a step.
+
+    There they are far more off. In a ramp nothing is, however uneven the clock.
+    """
+    share = np.diff(time)[:-1] / np.maximum(time[2:] - time[:-2], 1e-9)
+    bend = column[1:-1] - column[:-2] - share * (column[2:] - column[:-2])
     most = 4 * float(np.median(np.abs(bend)))
     bounded: Array = np.where(np.abs(bend) <= most, bend, 0.0)
     return bounded

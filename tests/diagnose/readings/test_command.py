@@ -92,3 +92,19 @@ def test_a_command_that_was_written_stays_as_it_is() -> None:
 def test_what_the_pressure_follows_was_commanded() -> None:
     jagged = _plan() + noise(SIZE, READING, 7)
     assert np.array_equal(_course(jagged, jagged).column("current"), jagged)
+
+
+def test_a_ramp_read_at_an_uneven_clock_is_no_command_that_wiggles() -> None:
+    """Read with 12 bits of 24 mA: it bends with the clock, and the pressure with it."""
+    random = np.random.default_rng(5)
+    time = np.cumsum(random.uniform(0.05, 0.11, 2 * SIZE))
+    corners = [4e-3, *[18e-3, 6e-3] * 4]
+    command = np.interp(time, np.linspace(0, 40, 9), corners)
+    step = 24e-3 / 4096
+    read = np.round((command + random.normal(0, 6e-6, time.size)) / step) * step
+    pressure = (command - 4e-3) / 16e-3 * 500e3 + random.normal(0, 500.0, time.size)
+    sweeps = (run("read", time=time, current=read, pressure=pressure),)
+    (course,), _ = courses(Recording("read", "", sweeps), 0.25)
+    rests = time > 42
+    found = course.column("current")
+    assert np.std((found - command)[rests]) < 1e-6 < np.std((read - command)[rests])
