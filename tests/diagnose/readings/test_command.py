@@ -44,6 +44,13 @@ def test_the_noise_of_a_current_that_was_read_is_taken_off() -> None:
     assert np.sqrt(np.mean((found - command) ** 2)) < 0.45 * READING
 
 
+def test_so_is_that_of_a_good_meter() -> None:
+    command = _plan()
+    read = command + noise(SIZE, READING / 10, 7)
+    found = _course(command, read).column("current")
+    assert np.sqrt(np.mean((found - command) ** 2)) < 0.6 * READING / 10
+
+
 def test_what_rests_is_told_as_a_mean_of_it_all() -> None:
     command = _plan()
     found = _course(command, command + noise(SIZE, READING, 7)).column("current")
