@@ -17,6 +17,10 @@ from gripperd.model.elastic_curve import ElasticCurve
 from gripperd.model.muscle import Muscle
 from gripperd.model.real import Real
 
+LEAST = 0.007
+"""Contraction over which no bladder saturates: a measured one of 10 mm over 0.0105, and
+a magnet or a taut cable near rest length over 0.0063 at most. [-]"""
+
 
 @dataclass(frozen=True, slots=True)
 class NonlinearElasticity(ElasticCurve):
@@ -33,6 +37,12 @@ class NonlinearElasticity(ElasticCurve):
     )  # fmt: skip
     remedy: ClassVar[str] = "add the measured elastic curve of the bladder to the model"
     basis: ClassVar[str] = "rubber_elasticity"
+
+    @property
+    def is_misnamed(self) -> bool:
+        """Something else pulls near rest length alone: a cable, a magnet, a stop."""
+        late = abs(self.quadratic) + abs(self.cubic)
+        return self.contraction < LEAST and abs(self.saturation) > late
 
     def force(self, at: MuscleState, muscle: Muscle) -> Real:
         """Minus the elastic force beyond eq. (5). [N]."""

@@ -103,6 +103,11 @@ class Effect(Protocol):
         ...
 
     @property
+    def is_misnamed(self) -> bool:
+        """Whether its numbers lie where nothing is that bears its name."""
+        ...
+
+    @property
     def forgetful(self) -> Self:
         """The same without a memory, where something is left of it: a curve."""
         ...

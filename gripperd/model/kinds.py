@@ -30,6 +30,11 @@ class Memoryless:
         return ""
 
     @property
+    def is_misnamed(self) -> bool:
+        """It is what it is called."""
+        return False
+
+    @property
     def forgetful(self) -> Self:
         """It stays what it is."""
         return self
