@@ -49,6 +49,8 @@ class Smooth(NamedTuple):
     """Standard deviation of the value, as the whole column has it."""
     broken: bool = False
     """Whether it was given every corner that can be told from noise."""
+    unsure: Array | bool = False
+    """Samples of a way that may have been gone there and back, or by noise alone."""
 
 
 def smooth(  # noqa: PLR0913  (a column, its noise, and what it may do)

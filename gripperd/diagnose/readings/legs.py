@@ -16,6 +16,8 @@ from gripperd.model.track import Array
 BORNE_OUT = 10.0
 """By how much likelier readings are with a leg that they bear out: a way that turns
 follows noise as well. [nat]"""
+BESIDE = 3.0
+"""Standard deviations of a mean within which a first leg is no way gone. [-]"""
 
 
 def legs_of(signs: Array) -> list[slice]:
@@ -51,8 +53,19 @@ def borne_out(signs: Array, column: Array, variance: float) -> Array:
         least = int(np.argmin(told))
         if told[least] > 2 * BORNE_OUT * variance:
             break
-        found[legs[least]] *= -1
+        leg = legs[least]
+        rests = least == 0 and _stays(column, leg, variance)
+        found[leg] *= 0 if rests else -1
     return found
+
+
+def _stays(column: Array, leg: slice, variance: float) -> bool:
+    """Whether a first leg is where the column was before, but for its noise."""
+    before, there = column[: leg.start], column[leg]
+    if not (np.isfinite(before).any() and np.isfinite(there).any()):
+        return False
+    apart = float(np.nanmean(there)) - float(np.nanmean(before))
+    return bool(abs(apart) < BESIDE * variance**0.5)
 
 
 def _misfit(column: Array, sign: float) -> float:

@@ -115,29 +115,32 @@ def _steady(sweep: Run, known: Smooth) -> Smooth:
     value = known.value
     if not np.isfinite(value).all():
         return known
-    signs = _travelled(sweep, known)
+    signs, turned = _travelled(sweep, known)
     if not signs.any():
         still = np.full_like(value, value.mean())
         return known._replace(value=still, rate=0.0 * value)
     out = _one_way(value, signs)
     if (before := signs == 0).any():
         out[before] = value[before].mean()
-    return known._replace(value=out)
+    return known._replace(value=out, unsure=turned != signs)
 
 
-def _travelled(sweep: Run, known: Smooth) -> Array:
-    """Sign of the travel that the readings bear out; 0 throughout if there is none.
+def _travelled(sweep: Run, known: Smooth) -> tuple[Array, Array]:
+    """Sign of the travel that the readings bear out, and of that which the trend has.
+
+    0 throughout if there is none.
 
     What yields in the jaws lets the muscle go to and fro by less than a trend may
     wander. It does so again and again, and a test stand has no jaws.
     """
-    column = sweep.columns["contraction"]
-    signs = borne_out(contracting(known), column, known.variance)
+    column, turned = sweep.columns["contraction"], contracting(known)
+    signs = borne_out(turned, column, known.variance)
     if signs.any() or not sweep.has("opening"):
-        return signs
-    signs = borne_out(contracting(known, JAWS), column, known.variance)
+        return signs, turned
+    turned = contracting(known, JAWS)
+    signs = borne_out(turned, column, known.variance)
     turns = np.count_nonzero(np.diff(signs[signs != 0]))
-    return signs if turns >= AGAIN else np.zeros_like(signs)
+    return (signs if turns >= AGAIN else np.zeros_like(signs)), turned
 
 
 def _unturned(known: Smooth) -> Smooth:

@@ -60,6 +60,9 @@ def usable(course: Course, signal: Signal) -> Mask:
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
         good &= ~_winding(course)
+        if course.direction.any():
+            # What may have been gone there and back had its friction as well.
+            good &= ~_unsure(course) & ~_missed(course, "contraction")
     if sweeps and signal is Signal.FORCE:
         good &= ~stuck(course) & ~late(course) & ~_inflating(course)
     return good
@@ -72,6 +75,13 @@ def _bridged(course: Course, name: str) -> Mask:
     for start, end in ends.reshape(-1, 2).tolist():
         gone[start:end] = end - start > NEIGHBOURS
     return gone & np.isfinite(course.level(name))
+
+
+def _unsure(course: Course) -> Mask:
+    """Samples of a leg that the readings do not bear out: its friction is not known."""
+    known = course.smooth.get("contraction")
+    unsure = np.full(len(course), False if known is None else known.unsure)
+    return binary_dilation(unsure, iterations=2)
 
 
 def _missed(course: Course, name: str) -> Mask:

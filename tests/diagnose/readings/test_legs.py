@@ -47,6 +47,22 @@ def test_noise_on_the_way_splits_no_leg() -> None:
     assert told.tolist() == _signs(way.size, CORNER + 1).tolist()
 
 
+def test_a_first_leg_that_noise_alone_makes_is_no_travel_yet() -> None:
+    still = np.zeros(20)
+    way = _read(still, np.full(5, -1.5 * NOISE), DOWN[::-1])
+    signs = np.concatenate([still, np.full(5, -1.0), np.ones(DOWN.size)])
+    told = borne_out(signs, way, NOISE**2)
+    assert told.tolist() == [*25 * [0.0], *DOWN.size * [1.0]]
+
+
+def test_a_leap_before_a_first_leg_is_a_travel() -> None:
+    still = np.zeros(20)
+    way = _read(still, np.full(30, 0.17), DOWN)
+    signs = np.concatenate([still, np.ones(30), -np.ones(DOWN.size)])
+    told = borne_out(signs, way, NOISE**2)
+    assert told[20:].tolist() == (-np.ones(30 + DOWN.size)).tolist()
+
+
 def test_before_any_travel_there_is_no_leg_to_take_back() -> None:
     way = _read(np.full(9, 0.17), DOWN)
     signs = np.concatenate([np.zeros(9), _signs(DOWN.size)])

@@ -55,6 +55,25 @@ def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
     assert good[(near > 1.2) & (time > 2)].all()
 
 
+@pytest.mark.parametrize("seed", [0, 1, 2, 3, 7])
+def test_a_way_that_may_have_been_gone_says_nothing_of_the_force(seed: int) -> None:
+    """A muscle is stretched by 0.7 %, read with 0.09 %, before it contracts.
+
+    The noise of three hides a way that the trend goes, of two it hides even that.
+    """
+    time = np.arange(0.0, 12.0, 0.1)
+    way = np.interp(time, [0, 4.0, 4.7, 4.8, 6.3, 12], [0, 0, -7e-3, -4e-3, 0.19, 0.19])
+    told = run(
+        contraction=way + noise(time.size, 9e-4, seed, 0.3),
+        pressure=np.full(time.size, 3e5),
+        force=np.full(time.size, 500.0),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert good[(time > 1) & (time < 3.5)].mean() > 0.8
+    assert not good[43:48].any()
+
+
 @pytest.mark.parametrize("compliance", [COMPLIANCE, 0.0])
 def test_while_friction_turns_round_in_a_frame_that_yields_nobody_knows_its_way(
     compliance: float,
