@@ -120,10 +120,7 @@ def _inner(
     courses: Sequence[Course], later: Sequence[int]
 ) -> tuple[Sequence[str], list[int]]:
     """Sweeps that others reach as far as, holds apart, and in which inputs they do."""
-    top = {
-        name: max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
-        for name in (*COMMANDED, "contraction")
-    }
+    top = {name: _highest(courses, name) for name in (*COMMANDED, "contraction")}
     moved = [index for index in later if not _still(courses[index], top)]
     for columns in (CONDITIONS, PLACES):
         inside = within(courses, columns)
@@ -134,8 +131,9 @@ def _inner(
 
 def _chosen(courses: Sequence[Course], rest: Sequence[int], wanted: int) -> set[int]:
     """So many sweeps, of those that travel and of those that rest in proportion."""
-    moving = [index for index in rest if _travelled(courses[index])]
-    resting = [index for index in rest if index not in moving]
+    top = _highest(courses, "contraction")
+    resting = [index for index in rest if _stays(courses[index], top)]
+    moving = [index for index in rest if index not in resting]
     of_moving = round(wanted * len(moving) / max(len(rest), 1))
     return {*_spread(moving, of_moving), *_spread(resting, wanted - of_moving)}
 
@@ -194,11 +192,19 @@ def _still(course: Course, top: Mapping[str, float]) -> bool:
     be it at another length. The pressure of a valve that is shut may sink, at a command
     that stays.
     """
-    rests = {
-        name: _rests(course.level(name), HELD * most) for name, most in top.items()
-    }
-    stays = rests["contraction"] or not _travelled(course)
-    return stays and any(rests[name] for name in COMMANDED)
+    return _stays(course, top["contraction"]) and any(
+        _rests(course.level(name), HELD * top[name]) for name in COMMANDED
+    )
+
+
+def _stays(course: Course, highest: float) -> bool:
+    """Whether the muscle keeps to a length, be it one that it goes to first."""
+    rests = _rests(course.level("contraction"), HELD * highest)
+    return rests or not _travelled(course)
+
+
+def _highest(courses: Sequence[Course], name: str) -> float:
+    return max(float(np.nanmax(one.level(name), initial=0.0)) for one in courses)
 
 
 def _rests(level: Array, most: float) -> bool:

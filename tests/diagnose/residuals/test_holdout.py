@@ -195,6 +195,27 @@ def test_no_hold_is_spared_though_it_goes_to_its_length_first(
     assert ("held" in spared) is not arrives
 
 
+def test_a_sweep_at_a_length_it_goes_to_first_does_not_travel(blank: Problem) -> None:
+    """Of six that do so and three that travel throughout, both kinds are left out."""
+    named = {course.run: course for course in blank.courses}
+
+    def going(course: Course) -> Course:
+        known = course.smooth["contraction"]
+        way = np.linspace(0.0, 1.0, len(course))
+        there = float(np.median(known.value)) * np.minimum(way / 0.1, 1.0)
+        return replace(
+            course,
+            run=f"{course.run}, held",
+            direction=np.where(way < 0.09, 1.0, -1.0),
+            smooth={**course.smooth, "contraction": known._replace(value=there)},
+        )
+
+    held = [going(named[name]) for name in ("a", "b", "b2", "b", "b2", "c")]
+    courses = (named["a"], *held, *(named[name] for name in "edf"), named["c"])
+    spared = split(replace(blank, courses=tuple(courses))).runs
+    assert {"held" in name for name in spared} == {True, False}
+
+
 def _faster(
     problem: Problem, names: set[str], times: float, what: str = "contraction"
 ) -> Problem:
