@@ -1,6 +1,7 @@
 """Files that a command writes: checked before its work, written after it."""
 
 from collections.abc import Mapping
+from os.path import realpath
 from pathlib import Path
 
 from gripperd.errors import InputError
@@ -48,7 +49,12 @@ def write(place: Path, text: str) -> None:
 def _is_same(one: Path, other: Path) -> bool:
     if one.exists() and other.exists():
         return one.samefile(other)
-    return one.resolve() == other.resolve()
+    return _real(one) == _real(other)
+
+
+def _real(place: Path) -> Path:
+    """Where links lead to; as far as they do where they lead round in a circle."""
+    return Path(realpath(place))
 
 
 def _check_place(place: Path, option: str) -> None:
@@ -62,7 +68,7 @@ def _check_place(place: Path, option: str) -> None:
         # A pipe: opening it would already tell its reader something.
         return
     # Of a link, the file it leads to: only that is made and removed.
-    real = place.resolve()
+    real = _real(place)
     try:
         if real.exists():
             real.open("ab").close()

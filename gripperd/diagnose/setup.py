@@ -10,6 +10,7 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.residuals.coherent import check_coherent
 from gripperd.diagnose.residuals.constants import constants
 from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.heard import with_heard_lengths
@@ -61,6 +62,7 @@ def problem_of(
     }
     rough = Problem(sweeps, model, (), loud, _slack(sweeps, loud))
     check_plausible(rough, recording.name)
+    check_coherent(rough, recording.name)
     # What is left out later must not even tell, by its misfit, how loud noise is.
     parts = split(rough)
     check_judged(parts, recording.name)

@@ -18,10 +18,12 @@ from gripperd.recordings.table import Table
 
 EMPTY = ("", "nan", "NaN", "NAN", "NA", "N/A", "null", "NULL", "None")
 """Cells that mean "not measured"."""
+# What matched once is not tried shorter: a cell may be as long as a file.
 NUMBER = re.compile(
-    r"[-+]?(([0-9]+\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE
+    r"[-+]?(([0-9]++\.?+[0-9]*+|\.[0-9]++)(e[-+]?[0-9]++)?|inf|infinity)",
+    re.IGNORECASE,
 )
-DECIMAL_COMMA = re.compile(r"[-+]?[0-9]+,[0-9]+")
+DECIMAL_COMMA = re.compile(r"[-+]?[0-9]++,[0-9]++")
 ENDING = re.compile(rb"\r\n|\n|\r|\Z")
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
 NOT_UTF8 = "is not UTF-8 text; save it as such"

@@ -60,7 +60,19 @@ def judge_names(source: str, names: Sequence[str]) -> tuple[str, ...]:
             shown = ", ".join(printable(there) for there in names[:20])
             detail = f"{source}: column {name} is missing; there are: {shown}"
             raise InputError(detail)
-    return tuple(f'Column "{printable(name)}" is not read.' for name in unread)
+    return tuple(_unread(name, names) for name in unread)
+
+
+def _unread(name: str, names: Sequence[str]) -> str:
+    """Say that a column is not read, and what it may have been meant to be."""
+    unit = name.rpartition("_")[2].casefold()
+    meant = [
+        column.name
+        for column in COLUMNS.values()
+        if column.unit.casefold() == unit and column.name not in names
+    ]
+    said = f'Column "{printable(name)}" is not read'
+    return f"{said}; is it {' or '.join(meant)}?" if unit and meant else f"{said}."
 
 
 def misnamed(name: str) -> Column | None:

@@ -33,9 +33,7 @@ def read_recording(path: Path) -> Recording:
     unread = judge_names(str(path), file.names)
     cut = sweeps(file.table(WORDS, COLUMNS))
     require_ratio(str(path), cut.runs)
-    side = read_side_file(
-        path.with_suffix(".yaml"), tuple(run.name for run in cut.runs)
-    )
+    side = read_side_file(path.with_suffix(".yaml"), cut.runs)
     runs, rejected = screened(side.labelled(cut.runs))
     require_enough(str(path), runs, rejected)
     return Recording(

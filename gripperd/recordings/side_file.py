@@ -1,9 +1,11 @@
 """What stands beside a recording: who, what for, and how noisy. YAML."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeGuard
+
+import numpy as np
 
 from gripperd.config.complaint import did_you_mean
 from gripperd.config.document import Document, read_document
@@ -32,8 +34,8 @@ class SideFile:
         return tuple(replace(run, kind=self.kinds.get(run.name)) for run in runs)
 
 
-def read_side_file(path: Path, runs: tuple[str, ...]) -> SideFile:
-    """Read what stands beside a recording with these runs.
+def read_side_file(path: Path, runs: Sequence[Run]) -> SideFile:
+    """Read what stands beside a recording of these runs.
 
     Raises
     ------
@@ -41,6 +43,8 @@ def read_side_file(path: Path, runs: tuple[str, ...]) -> SideFile:
         It is there and cannot be used; the message has a line for every complaint.
     """
     if not path.exists():
+        if path.is_symlink():
+            raise InputError(f"{path}: is a link to no file")
         return SideFile()
     try:
         document = read_document(path)
@@ -51,7 +55,7 @@ def read_side_file(path: Path, runs: tuple[str, ...]) -> SideFile:
         raise InputError(str(broken)) from None
 
 
-def _side_file(document: Document, runs: tuple[str, ...]) -> SideFile:
+def _side_file(document: Document, runs: Sequence[Run]) -> SideFile:
     entries = _mapping(document, (), document.value)
     for key in IDENTITIES:
         if isinstance(entries.get(key), list):
@@ -59,15 +63,21 @@ def _side_file(document: Document, runs: tuple[str, ...]) -> SideFile:
             raise ConfigError(document.complaint((key,), detail))
     unknown = sorted(set(entries) - KNOWN)
     return SideFile(
-        noise=_noise(document, _mapping(document, ("noise",), entries.get("noise"))),
+        noise=_noise(
+            document, _mapping(document, ("noise",), entries.get("noise")), runs
+        ),
         kinds=_kinds(
-            document, _mapping(document, ("runs",), entries.get("runs")), runs
+            document,
+            _mapping(document, ("runs",), entries.get("runs")),
+            tuple(run.name for run in runs),
         ),
         remarks=tuple(f"{document.source}: {key} is not read" for key in unknown),
     )
 
 
-def _noise(document: Document, entries: Mapping[str, object]) -> Mapping[str, float]:
+def _noise(
+    document: Document, entries: Mapping[str, object], runs: Sequence[Run]
+) -> Mapping[str, float]:
     noise: dict[str, float] = {}
     for name, value in entries.items():
         column = COLUMNS.get(name)
@@ -79,6 +89,13 @@ def _noise(document: Document, entries: Mapping[str, object]) -> Mapping[str, fl
             raise ConfigError(document.complaint(("noise", name), detail))
         if value * column.scale > HUGE:
             detail = f"{shown(value)} is above {column.shown(HUGE)}"
+            raise ConfigError(document.complaint(("noise", name), detail))
+        spread = _spread(runs, column.quantity) / column.scale
+        if value > spread > 0:
+            detail = (
+                f"{shown(value)} {column.unit} is above {spread:.4g} {column.unit},"
+                " all by which that column varies"
+            )
             raise ConfigError(document.complaint(("noise", name), detail))
         noise[column.quantity] = value * column.scale
     return noise
@@ -101,6 +118,14 @@ def _kinds(
             raise ConfigError(document.complaint(("runs", run, "kind"), detail))
         kinds[run] = Kind(kind)
     return kinds
+
+
+def _spread(runs: Sequence[Run], quantity: str) -> float:
+    """Range of a column in all runs; 0 where it is not there, or stays. [SI]."""
+    read = [run.columns[quantity] for run in runs if run.has(quantity)]
+    known = [column[np.isfinite(column)] for column in read]
+    seen = np.concatenate([np.empty(0), *known])
+    return float(np.ptp(seen)) if seen.size else 0.0
 
 
 def _is_number(value: object) -> TypeGuard[float]:

@@ -59,6 +59,15 @@ def test_another_name_of_an_input_is_the_input(
     assert recording.read_text() == "kept"
 
 
+def test_links_that_lead_round_in_a_circle_are_no_trouble(tmp_path: Path) -> None:
+    one, other = tmp_path / "one.csv", tmp_path / "other.csv"
+    one.symlink_to(other)
+    other.symlink_to(one)
+    check_outputs({"--json": tmp_path / "found.json"}, {"the recording": one})
+    with pytest.raises(InputError, match="cannot be written"):
+        check_outputs({"--json": one}, {"the recording": tmp_path / "rec.csv"})
+
+
 def test_a_check_leaves_everything_as_it_was(tmp_path: Path) -> None:
     old, link, new = tmp_path / "old", tmp_path / "link", tmp_path / "new"
     old.write_text("old")

@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -152,6 +153,54 @@ def test_a_sensor_that_shows_nothing_is_named() -> None:
     dead = altered(recording(), ALL, "pressure", lambda pressure: 0.0 * pressure)
     with pytest.raises(InputError, match="column pressure_kPa is 0 throughout"):
         problem_of(dead, MODEL, {})
+
+
+def test_readings_that_know_nothing_of_their_neighbours_are_no_measurement() -> None:
+    draws = np.random.default_rng(5)
+    shuffled = altered(recording(), ALL, "force", draws.permutation)
+    with pytest.raises(InputError, match=r"column force_N scatters by \d+") as refused:
+        problem_of(shuffled, MODEL, {})
+    assert refused.value.key == "force_N"
+
+
+def _beside(name: str, made: Callable[[Run], Array]) -> Recording:
+    """The small recording with one more column."""
+    told = recording()
+    runs = (
+        Run(run.name, {**run.columns, name: made(run)}, run.kind) for run in told.runs
+    )
+    return replace(told, runs=tuple(runs))
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.05, 2.0])
+def test_a_length_beside_a_contraction_tells_the_same(ratio: float) -> None:
+    told = _beside("length", lambda r: 0.25 * (1.0 - r.columns["contraction"] / ratio))
+    if ratio < 1.1:
+        problem_of(told, MODEL, {})
+        return
+    with pytest.raises(InputError, match="goes 2 times as far as the latter"):
+        problem_of(told, MODEL, {})
+
+
+@pytest.mark.parametrize("supply", [6e5, 6e3])
+def test_no_muscle_has_more_than_its_supply(supply: float) -> None:
+    fed = _beside("supply", lambda r: np.full(len(r), supply))
+    if supply > 5e5:
+        problem_of(fed, MODEL, {})
+        return
+    with pytest.raises(InputError, match="supply_kPa is 6 kPa at most, and the muscle"):
+        problem_of(fed, MODEL, {})
+
+
+@pytest.mark.parametrize("shift", [101.3e3, 97e3, 60e3, 20e3])
+def test_a_pressure_with_the_atmosphere_in_it_is_absolute(shift: float) -> None:
+    told = altered(recording(), ALL, "pressure", lambda pressure: pressure + shift)
+    if shift < 90e3:
+        problem_of(told, MODEL, {})
+        return
+    with pytest.raises(InputError, match="is it absolute") as complaint:
+        problem_of(told, MODEL, {})
+    assert complaint.value.key == "pressure_kPa"
 
 
 def test_too_few_samples_to_judge_by_are_refused() -> None:

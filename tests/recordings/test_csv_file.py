@@ -46,6 +46,18 @@ def test_a_decimal_comma_in_quotes_is_explained(
     assert message.startswith('rig.csv:2: force_N: "12,5" is not a number; write dec')
 
 
+def test_a_cell_as_long_as_a_file_is_told_at_once(
+    write: Write, complaint: Complaint
+) -> None:
+    """A pattern that goes back over its digits takes seven minutes for so many."""
+    columns = good()
+    columns["force_N"][0] = "9" * 120_000 + "x"
+    said = complaint(write(columns))
+    assert said.startswith('rig.csv:2: force_N: "999')
+    assert "is not a number" in said
+    assert len(said) < 300
+
+
 def test_a_line_with_too_many_cells_is_refused(
     write: Write, complaint: Complaint
 ) -> None:

@@ -67,6 +67,15 @@ def test_another_unit_beside_the_right_one_is_left_alone(write: Write) -> None:
     assert recording.remarks == ('Column "force_lbf" is not read.',)
 
 
+def test_a_column_in_the_unit_of_one_that_is_missing_may_be_meant_for_it(
+    write: Write,
+) -> None:
+    columns = good() | {"current_mA": [4.0 + 0.2 * row for row in range(30)]}
+    columns["F_N"] = columns.pop("force_N")
+    (remark,) = read_recording(write(columns)).remarks
+    assert remark == 'Column "F_N" is not read; is it force_N or grip_N?'
+
+
 def test_a_name_that_stands_twice_is_refused(
     write: Write, complaint: Complaint
 ) -> None:

@@ -34,6 +34,7 @@ def test_a_key_nobody_knows_is_said_not_to_be_read(write: Write) -> None:
         ("noise:\n  force_N: -5", "rig.yaml:2: noise.force_N: -5 is not above 0 N"),
         ("noise: {force_N: much}", '"much" is not above 0 N'),
         ("noise: {force_N: 1.0e+300}", "1e+300 is above 1e+12 N"),
+        ("noise: {force_N: 4e+5}", "400000 N is above "),
         ("noise: 5", "rig.yaml:1: noise: 5 is not a mapping"),
         ("runs: {h0.1: {kind: step}}", 'no such run; did you mean "h0.10"?'),
         ("runs: {h0.10: {kind: isometrc}}", 'did you mean "isometric"?'),
@@ -49,3 +50,9 @@ def test_a_side_file_that_cannot_be_right_is_refused(
     path = write(good())
     path.with_suffix(".yaml").write_text(text)
     assert detail in complaint(path)
+
+
+def test_a_link_to_nothing_is_no_side_file(write: Write, complaint: Complaint) -> None:
+    path = write(good())
+    path.with_suffix(".yaml").symlink_to("rig.yaml")
+    assert "rig.yaml: is a link to no file" in complaint(path)

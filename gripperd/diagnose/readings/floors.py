@@ -16,6 +16,8 @@ FOLLOWED = ("current", "contraction", "length", "force")
 """What moves, one of them at least, while a pressure rises."""
 GONE_ON = 0.05
 """Share of its range by which that moves at least. [-]"""
+NOTHING = 0.02
+"""Share of the highest pressure up to which a channel ends at no pressure. [-]"""
 FEWEST_ZEROS = 3
 """Exact zeros that are no coincidence."""
 SHORTEST = 10
@@ -58,18 +60,26 @@ def ends_of_scale(runs: Sequence[Run]) -> Iterator[Fault]:
             yield Fault(index, "force", run.columns["force"] == end, reason)
 
 
-def ceilings(runs: Sequence[Run]) -> Iterator[Fault]:
-    """Find pressures that stay at the greatest value while something else goes on.
+def ends_of_pressure(runs: Sequence[Run]) -> Iterator[Fault]:
+    """Find pressures that stay at an end of the channel while something else goes on.
 
     A supply that gives no more gives it with its noise. So a channel is asked for that
-    is noisy below: of one that repeats itself nobody can tell.
+    is noisy between: of one that repeats itself nobody can tell. One that ends at
+    nothing reads a vented muscle as it is.
     """
-    read = [(index, run) for index, run in enumerate(runs) if run.has("pressure")]
-    if not read:
+    pressure = _all(runs, "pressure")
+    if not pressure.size:
         return
-    end = float(_all(runs, "pressure").max())
-    below = [run.columns["pressure"][run.columns["pressure"] < end] for _, run in read]
-    if not noisy(np.concatenate(below)):
+    low, high = float(pressure.min()), float(pressure.max())
+    yield from _end(runs, high, "ceiling")
+    if low > NOTHING * high:
+        yield from _end(runs, low, "floor")
+
+
+def _end(runs: Sequence[Run], end: float, name: str) -> Iterator[Fault]:
+    read = [(index, run) for index, run in enumerate(runs) if run.has("pressure")]
+    inside = np.concatenate([run.columns["pressure"] for _, run in read])
+    if not noisy(inside[inside != end]):
         return
     enough = {
         name: GONE_ON * float(np.ptp(_all(runs, name)))
@@ -77,7 +87,7 @@ def ceilings(runs: Sequence[Run]) -> Iterator[Fault]:
         if any(run.has(name) for run in runs)
     }
     if any(_goes_on(run, end, enough) for _, run in read):
-        reason = f"at the ceiling of the channel, {PRESSURE.shown(end)}"
+        reason = f"at the {name} of the channel, {PRESSURE.shown(end)}"
         for index, run in read:
             yield Fault(index, "pressure", run.columns["pressure"] == end, reason)
 

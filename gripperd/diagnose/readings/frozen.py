@@ -84,9 +84,21 @@ def _left_behind(runs: Sequence[Run], quantity: str, other: str) -> Iterator[Fau
         return
     everywhere = np.concatenate(reached)
     enough = TRAVEL * float(np.nanmax(everywhere) - np.nanmin(everywhere))
-    for index, run in enumerate(runs):
-        if not run.has(quantity):
-            continue
-        for stretch in stretches(run.columns[quantity], SHORTEST):
-            if stretch.travel(run, other) >= enough > 0.0 and stretch.held(run):
-                yield Fault(index, quantity, stretch.mask(len(run)), REASON)
+    found = [
+        Fault(index, quantity, stretch.mask(len(run)), REASON)
+        for index, run in enumerate(runs)
+        if run.has(quantity)
+        for stretch in stretches(run.columns[quantity], SHORTEST)
+        if stretch.travel(run, other) >= enough > 0.0 and stretch.held(run)
+    ]
+    yield from found
+    if found and _never_changes(runs, quantity):
+        for index, run in enumerate(runs):
+            if run.has(quantity):
+                read = np.isfinite(run.columns[quantity])
+                yield Fault(index, quantity, read, REASON)
+
+
+def _never_changes(runs: Sequence[Run], quantity: str) -> bool:
+    read = np.concatenate([run.columns[quantity] for run in runs if run.has(quantity)])
+    return bool(np.ptp(read[np.isfinite(read)]) == 0.0)

@@ -20,14 +20,18 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "current": (BROKEN_BELOW, BROKEN_ABOVE),
         "pressure": (VACUUM, HUGE),
         "supply": (VACUUM, HUGE),
-        "ambient": (0.0, HUGE),
-        "temperature": (0.0, HUGE),
+        "ambient": (30e3, 120e3),
+        "temperature": (213.15, 423.15),
         "contraction": (-1.0, 1.0),
         "length": (0.0, HUGE),
         "object": (0.0, HUGE),
     }
 )
-"""Lowest and highest reading there can be, by quantity. [SI]"""
+"""Lowest and highest reading there can be, by quantity. [SI]
+
+The air is as thin as that on the highest mountain and as dense as in a deep mine, and
+rubber is brittle at -60 °C and charred at 150 °C.
+"""
 
 
 def beyond_limits(runs: Sequence[Run]) -> Iterator[Fault]:

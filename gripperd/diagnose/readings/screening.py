@@ -9,14 +9,15 @@ from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.dropout import dropouts
 from gripperd.diagnose.readings.edge import edges
 from gripperd.diagnose.readings.fault import Check, Fault
-from gripperd.diagnose.readings.floors import ceilings, ends_of_scale, slack
+from gripperd.diagnose.readings.floors import ends_of_pressure, ends_of_scale, slack
 from gripperd.diagnose.readings.frozen import frozen
 from gripperd.diagnose.readings.limits import beyond_limits
 from gripperd.diagnose.readings.recording import Rejection, Run
 from gripperd.diagnose.readings.spikes import spikes
 
 CHECKS: tuple[Check, ...] = (
-    beyond_limits, dropouts, slack, ends_of_scale, ceilings, frozen, spikes, edges,
+    beyond_limits, dropouts, slack, ends_of_scale, ends_of_pressure, frozen, spikes,
+    edges,
 )  # fmt: skip
 """In this order: each sees only what those before it believed."""
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.readings.fault import Check, Mask
-from gripperd.diagnose.readings.floors import ceilings, ends_of_scale, slack
+from gripperd.diagnose.readings.floors import ends_of_pressure, ends_of_scale, slack
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.screening import screened
 from gripperd.model.track import Array
@@ -101,18 +101,36 @@ def _capped(step: float = 0.0, current: float = 20e-3) -> Run:
 
 def test_a_pressure_at_the_ceiling_of_its_channel_is_censored() -> None:
     capped = _capped()
-    (rows,) = _rows(ceilings, [capped]).values()
+    (rows,) = _rows(ends_of_pressure, [capped]).values()
     assert (rows == (capped.columns["pressure"] == 400e3)).all()
     assert rows.sum() > 80
 
 
+@pytest.mark.parametrize(("end", "seen"), [(150e3, True), (3e3, False)])
+def test_a_pressure_at_the_floor_of_its_channel_is_censored(
+    end: float, *, seen: bool
+) -> None:
+    """One that shows nothing below 1.5 bar; but a vented muscle is read as it is."""
+    vented = np.zeros(100)
+    asked = np.concatenate([vented, triangle(low=0.0)])
+    told = run(
+        pressure=np.maximum(asked + noise(500, 1e3), end),
+        current=4e-3 + 16e-3 * asked / 500e3,
+        contraction=np.concatenate([np.linspace(0.2, 0.0, 100), np.zeros(400)]),
+    )
+    at_end = told.columns["pressure"] == end
+    assert at_end.sum() > 90
+    found = list(_rows(ends_of_pressure, [told]).values())
+    assert [rows.tolist() for rows in found] == [at_end.tolist()] * seen
+
+
 def test_a_pressure_that_is_asked_to_stay_is_no_ceiling() -> None:
     # 400 kPa is what 16.8 mA ask for.
-    assert _rows(ceilings, [_capped(current=16.8e-3)]) == {}
+    assert _rows(ends_of_pressure, [_capped(current=16.8e-3)]) == {}
 
 
 def test_of_a_coarse_converter_nobody_can_tell_its_ceiling_from_a_supply() -> None:
-    assert _rows(ceilings, [_capped(step=8e3)]) == {}
+    assert _rows(ends_of_pressure, [_capped(step=8e3)]) == {}
 
 
 def test_screening_looks_for_ceilings() -> None:
@@ -129,7 +147,7 @@ def test_the_ceiling_is_that_of_all_runs() -> None:
         pressure=triangle(high=390e3) + noise(400, 1.5e3, 5),
         current=4e-3 + 16e-3 * triangle(high=390e3) / 500e3,
     )
-    rows = _rows(ceilings, [low, _capped()])
+    rows = _rows(ends_of_pressure, [low, _capped()])
     # Of the lower sweep a few noisy readings may have been cut.
     assert rows[1].sum() > 80
     assert rows.get(0, np.zeros(1)).sum() < 5
@@ -150,7 +168,7 @@ def test_of_a_channel_without_noise_nobody_can_tell_its_ceiling(
     pressure: Array,
 ) -> None:
     current = 4e-3 + 16e-3 * triangle() / 500e3
-    assert _rows(ceilings, [run(pressure=pressure, current=current)]) == {}
+    assert _rows(ends_of_pressure, [run(pressure=pressure, current=current)]) == {}
 
 
 def test_what_creeps_at_the_highest_pressure_is_no_ceiling() -> None:
@@ -159,13 +177,13 @@ def test_what_creeps_at_the_highest_pressure_is_no_ceiling() -> None:
     force = 1000.0 * triangle() / 500e3
     held = np.minimum(force, 800.0) + 0.04 * np.cumsum(creeping) + noise(400, 0.3, 9)
     told = replace(capped, columns={**capped.columns, "force": held})
-    assert _rows(ceilings, [told]) == {}
+    assert _rows(ends_of_pressure, [told]) == {}
 
 
 def test_a_supply_that_gives_no_more_gives_it_with_its_noise() -> None:
     supply = np.minimum(triangle(), 400e3) + noise(400, 1.5e3)
     sweep = run(pressure=supply, current=4e-3 + 16e-3 * triangle() / 500e3)
-    assert _rows(ceilings, [sweep]) == {}
+    assert _rows(ends_of_pressure, [sweep]) == {}
 
 
 def test_noise_around_the_least_force_is_no_floor() -> None:

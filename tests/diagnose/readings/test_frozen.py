@@ -132,3 +132,19 @@ def test_a_hold_with_a_coarse_force_is_not_frozen() -> None:
         force=np.full(600, 702.0),
     )
     assert _rows([sweep]) == {}
+
+
+def test_a_force_that_never_changes_is_frozen_wherever_the_muscle_goes() -> None:
+    """Held, its pressure tells; where it travels the cell is as dead."""
+    dead = np.full(400, 300.0)
+    held = run("held", pressure=triangle(), contraction=np.full(400, 0.1), force=dead)
+    moved = run(
+        "moved",
+        pressure=300e3 + noise(400, 1e3),
+        contraction=triangle() / 5e6,
+        force=dead,
+    )
+    found = _rows([held, moved])
+    assert len(found[1, "force"]) == 400
+    alive = run("alive", pressure=triangle(), force=500.0 + noise(400, 4.0))
+    assert (1, "force") not in _rows([held, moved, alive])

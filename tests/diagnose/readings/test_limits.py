@@ -23,10 +23,12 @@ def test_a_loop_below_or_above_namur_ne_43_is_broken() -> None:
     ("quantity", "possible", "impossible", "reason"),
     [
         ("pressure", -101e3, -102e3, "under -101.33 kPa"),
-        ("temperature", 250.0, -1.0, "under -273.15 °C"),
+        ("temperature", 250.0, -1.0, "under -60 °C"),
+        ("temperature", 400.0, 295.0 + 273.15, "above 150 °C"),
         ("contraction", 0.9, 6.0, "above 1"),
         ("length", 0.2, -0.2, "under 0 mm"),
-        ("ambient", 90e3, -1.0, "under 0 kPa"),
+        ("ambient", 90e3, -1.0, "under 30 kPa"),
+        ("ambient", 90e3, 101e6, "above 120 kPa"),
     ],
 )
 def test_what_cannot_be_is_found(
