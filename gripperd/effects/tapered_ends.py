@@ -49,8 +49,12 @@ class TaperedEnds(InMuscle):
 
     excess: float = amplitude(unit=None, scale=0.1, low=-0.3, high=1.0)
     """Contraction of the middle beyond that of the whole, a. [-]"""
-    excess_vented: float = amplitude(unit=None, scale=0.1, low=-0.3, high=3.0)
-    """What comes on top in a vented muscle, b; 3 in one of [2]_. [-]"""
+    excess_vented: float = amplitude(unit=None, scale=0.1, low=-0.3, high=1.0)
+    """What comes on top in a vented muscle, b. [-]
+
+    That of [2]_ has 3. Given so much room, it would be told for the rubber that the
+    map of a DMSP-20 needs.
+    """
     excess_contracted: float = amplitude(unit=None, scale=0.05, low=-0.3, high=0.3)
     """What comes on top at a contraction of 0.1, in proportion to it, c. [-]"""
 
