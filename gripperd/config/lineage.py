@@ -20,8 +20,9 @@ Listed: TypeAlias = Annotated[tuple[T, ...], Field(strict=False)]
 Size: TypeAlias = Annotated[float, Field(ge=0)]
 
 
-ROUNDED = 1 + 1e-5
-"""Numbers of a file have six digits, so that a correlation may seem to be above 1."""
+ROUNDED = 1e-4
+"""Share by which six digits may make a correlation seem above 1, or two halves of a
+matrix not the same. [-]"""
 
 
 def _moment(given: object) -> datetime:
@@ -86,8 +87,9 @@ class Covariance(Section):
             raise ValueError(message)
         rows = self.matrix
         for (a, one), (b, other) in combinations(enumerate(self.parameters), 2):
-            most = ROUNDED * sqrt(max(rows[a][a], 0.0) * max(rows[b][b], 0.0))
-            if rows[a][b] != rows[b][a] or abs(rows[a][b]) > most:
+            most = sqrt(max(rows[a][a], 0.0) * max(rows[b][b], 0.0))
+            apart = abs(rows[a][b] - rows[b][a])
+            if apart > ROUNDED * most or abs(rows[a][b]) > (1 + ROUNDED) * most:
                 message = (
                     f"{one} and {other} cannot have covariances of {rows[a][b]:g} and"
                     f" {rows[b][a]:g}: they are the same, and at most {most:g} here"

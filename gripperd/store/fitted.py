@@ -53,7 +53,9 @@ def fitted(diagnosis: Diagnosis) -> Fitted:
     if not numbers:
         return Fitted((), np.empty((0, 0)))
     rows = np.array([number.row for number in numbers])
-    return Fitted(numbers, rows @ diagnosis.contest.best.fit.posterior @ rows.T)
+    matrix = rows @ diagnosis.contest.best.fit.posterior @ rows.T
+    # Rounding in a product leaves its halves a little apart.
+    return Fitted(numbers, (matrix + matrix.T) / 2)
 
 
 def kept(diagnosis: Diagnosis) -> Point:
