@@ -32,6 +32,9 @@ REACHED = 1.3
 """Gap over the noise floor up to which nothing more can be asked. [-]"""
 LEAST_CLOSED = 0.45
 """Share of a gap well above the noise that effects close at least. [-]"""
+SOME_CLOSED = 0.3
+"""The same where they reach what can be asked, for most of it was reached without. [-]
+"""
 DRIFTS = 0.006
 """How far a sound sensor is off in a sweep, of full scale: common ones drift by 0.2 %
 (sd), and seldom by three times that. [-]"""
@@ -101,6 +104,8 @@ class Gap:
         if self.ci95_after[0] > WORSE * max(self.recalibrated, self.reachable):
             return False
         if self.left_open > OPEN and self.after >= self.recalibrated:
+            return False
+        if self.left_open > REACHED and self.closed < SOME_CLOSED:
             return False
         crowd = effects > CROWD
         reached = self.after <= (CLOSELY if crowd else REACHED) * self.reachable

@@ -73,6 +73,10 @@ def test_the_share_closed_is_of_the_mean_square_above_the_noise(
         pytest.param(_gap(2.8, 3.0), True, id="worse, but within the noise"),
         pytest.param(_gap(9.0, 6.0), True, id="five eighths of the mean square"),
         pytest.param(_gap(9.0, 8.0), False, id="a quarter of the mean square"),
+        pytest.param(
+            _gap(4.1, 3.85), False, id="near the noise, but by a third hardly"
+        ),
+        pytest.param(_gap(4.1, 3.6), True, id="near the noise, and by half of it"),
     ],
 )
 def test_effects_are_confirmed_by_what_they_close_of_a_gap(
