@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from gripperd.model.kinds import InMuscle
-from gripperd.model.memory import begin, trailed
+from gripperd.model.memory import begin, lag
 from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.track import Array, Track
 
@@ -100,7 +100,7 @@ class Creep(InMuscle):
 
     def rest(self) -> Array:
         """Three lags that have not begun."""
-        return begin(6)
+        return begin(3)
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take from the pull what has not come yet."""
@@ -108,12 +108,12 @@ class Creep(InMuscle):
         late = np.zeros_like(load)
         if np.isnan(memory).all() and load.size:
             left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
-            memory[0::2], memory[1::2] = (1 - left) * load[0], load[0]
+            memory[:] = (1 - left) * load[0]
         for index, share in enumerate((self.fast, self.medium, self.slow)):
             if share:
                 time = self.time * SPACING**index
-                state = memory[2 * index : 2 * index + 2]
-                late += share * (load - trailed(load, track.step, time, state))
+                state = memory[index : index + 1]
+                late += share * (load - lag(load, track.step, time, time, state))
         if self.of is Creeping.PRESSURE:
             late *= track.pull_area
         return value - late

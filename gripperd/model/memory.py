@@ -65,24 +65,6 @@ def lag(
     return compiled(_lag)(signal, step, (rise, fall), state, throttle)
 
 
-def trailed(signal: Array, step: Array, constant: float, state: Array) -> Array:
-    """First-order lag, exact for a signal that is straight between samples.
-
-    Parameters
-    ----------
-    signal
-        What is followed, shape ``(n,)``.
-    step
-        Time since the sample before, shape ``(n,)``. [s]
-    constant
-        Time constant. [s]
-    state
-        What has followed so far, and the signal then, shape ``(2,)``; it is moved on.
-        What has begun without the latter begins with the signal where it is.
-    """
-    return compiled(_trailed)(signal, step, constant, state)
-
-
 def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
     """What a signal was some time ago, between samples on a straight line.
 
@@ -199,28 +181,6 @@ def _lag(
         last = goal + away * kept
         out[index] = last
     state[0] = last
-    return out
-
-
-def _trailed(signal: Array, step: Array, constant: float, state: Array) -> Array:
-    out = np.empty_like(signal)
-    last, before = state[0], state[1]
-    for index in range(signal.size):
-        goal = signal[index]
-        if np.isnan(goal):
-            goal = before
-        if np.isnan(before):
-            before = goal
-        if np.isnan(last):
-            last = goal
-        lapse = step[index] / constant
-        if lapse > 0:
-            # It trails a ramp by the rise in one time constant, once settled.
-            behind = (goal - before) / lapse
-            last = goal + (last - before) * np.exp(-lapse) + behind * np.expm1(-lapse)
-        out[index] = last
-        before = goal
-    state[0], state[1] = last, before
     return out
 
 
