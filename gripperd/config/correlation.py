@@ -8,8 +8,10 @@ from gripperd.config.effect import AnyEffect, keys_of_effect
 from gripperd.config.lineage import Covariance
 from gripperd.config.model_parts import PARTS
 from gripperd.config.section import ENDS, key_of
-from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.units import split
+
+ADJUSTED = "parameter:"
+"""Stands before the name of a constant of the model."""
 
 
 def correlations(
@@ -48,9 +50,9 @@ def _paths(effects: Iterable[AnyEffect]) -> Iterator[tuple[str, str]]:
     for part, schema in PARTS.items():
         for field in schema.model_fields:
             name, unit = split(field)
-            yield f"{WRONG}{part}.{key_of(schema, field)}", f"{part}.{name}"
+            yield f"{ADJUSTED}{part}.{key_of(schema, field)}", f"{part}.{name}"
             for end in ENDS:
-                yield f"{WRONG}{part}.{name}_{end}_{unit}", f"{part}.{name}_{end}"
+                yield f"{ADJUSTED}{part}.{name}_{end}_{unit}", f"{part}.{name}_{end}"
     for effect in effects:
         for name, key in keys_of_effect(effect).items():
             yield f"{effect.name}.{key}", f"effects.{effect.name}.{name}"

@@ -13,6 +13,7 @@ import pytest
 from gripperd.config import ModelFile, Provenance, Settings
 from gripperd.config.lineage import Added, Recorded
 from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.link.client import Client
 from gripperd.store import Version, Versions, versions_of
 from gripperd.store.activation import activation
@@ -181,8 +182,15 @@ def test_a_damaged_version_is_refused_with_its_file(
 def test_a_version_that_no_current_closes_is_refused(
     http: httpx.Client, versions: Versions
 ) -> None:
-    falling = (SupplySaturation(share=1.2, limit=0.05),)
-    version = add(versions, replace(versions.get(0).model, effects=falling))
+    # The supply gives 25 kPa, and the bladder takes 60 before it pulls.
+    drawn = versions.get(0).model
+    bladder = (*drawn.static.effects, ThresholdPressure(60e3))
+    weak = replace(
+        drawn,
+        static=replace(drawn.static, effects=bladder),
+        effects=(SupplySaturation(share=1.0, limit=0.05),),
+    )
+    version = add(versions, weak)
     refused = problem(http.post(f"/v1/models/{version.number}/activate"))
     assert (refused["status"], refused["code"]) == (409, "model-unusable")
     assert "it does not close" in refused["detail"]

@@ -7,6 +7,7 @@ import pytest
 from gripperd.config import Provenance, Settings, load_settings, shipped
 from gripperd.effects.creep import Creep
 from gripperd.effects.supply_saturation import SupplySaturation
+from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_lag import ValveLag
 from gripperd.errors import ConfigError
 from gripperd.model import StaticMuscle
@@ -64,9 +65,12 @@ def test_a_version_that_no_current_closes_is_refused(
 ) -> None:
     configured = settings.grippers["g0"]
     versions = versions_of(settings, configured)
-    # All of the supply's loss and more: the pressure falls as the current rises.
+    # The supply gives 25 kPa, and the bladder takes 60 before it pulls.
+    static = configured.model.static
     model = replace(
-        configured.model, effects=(SupplySaturation(share=1.2, limit=0.05),)
+        configured.model,
+        static=replace(static, effects=(*static.effects, ThresholdPressure(60e3))),
+        effects=(SupplySaturation(share=1.0, limit=0.05),),
     )
     versions.add(model, parent=0, created_at=NOW, provenance=provenance)
     versions.activate(1)

@@ -140,8 +140,11 @@ def is_exact(candidate: Candidate) -> bool:
     known = parameters(effect)
     if effect.stage is Stage.SENSOR:
         return True
-    plain = not any(one.starts for one in known.values())
-    return plain and (not known or effect.name in LINEAR)
+    bent = any(
+        one.starts and one.bends_from(getattr(effect, name))
+        for name, one in in_use(effect, effect.idle).items()
+    )
+    return not bent and (not known or effect.name in LINEAR)
 
 
 def is_plain(candidate: Candidate) -> bool:

@@ -19,6 +19,7 @@ from gripperd.effects import EFFECTS
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.creep import Creep
 from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_offset import ValveOffset, Zero
 from gripperd.model.effect import Signal, Stage
 from gripperd.model.parameter import in_use, parameters
 from tests.diagnose.small import MODEL, recording, without
@@ -109,6 +110,8 @@ def test_the_forms_of_an_effect_are_all_combinations_of_its_starts(name: str) ->
     wanted -= wanted // 3 if name == "creep" else 0
     # Only what trails has a spread, and only what wakes a speed.
     wanted = 2 + 1 + 2 if name == "valve_dead_band" else wanted
+    # Only a regulator that suppresses its zero brings its offset by and by.
+    wanted = 1 + 2 if name == "valve_offset" else wanted
     # Springs alone have a distance and one sign, relays alone a middle and a curve.
     wanted = 3 + 2 * (2 * 2) if name == "presliding_hysteresis" else wanted
     wanted = 2 * (3 + 2 * (2 * 2)) if name == "pressure_hysteresis" else wanted
@@ -160,6 +163,14 @@ def test_amplitudes_are_what_an_effect_is_proportional_to() -> None:
 )
 def test_what_a_sensor_does_has_no_form_but_ours(name: str, exact: bool) -> None:
     assert is_exact(Candidate(name, forms(EFFECTS[name])[0])) is exact
+
+
+def test_an_offset_that_comes_by_and_by_has_a_form() -> None:
+    at_once, faded = (
+        ValveOffset(offset=5e3, fade=fade, zero=Zero.SUPPRESSED) for fade in (0.0, 1e4)
+    )
+    assert is_exact(Candidate("valve_offset", at_once))
+    assert not is_exact(Candidate("valve_offset", faded))
 
 
 def test_a_constant_has_no_form() -> None:
