@@ -153,9 +153,10 @@ class Chain:
         self, contraction: Real, grip_force: Real, direction: Real
     ) -> tuple[Real, Real]:
         """Pull of the muscle that holds a grip force, and its own contraction."""
-        spring = self.linkage.spring_force(contraction, self.muscle.rest_length)
+        linkage, length = self.linkage, self.muscle.rest_length
         if not self._loaded:
-            return grip_force * self.linkage.ratio + spring, contraction
+            return linkage.muscle_force(grip_force, contraction, length), contraction
+        spring = linkage.spring_force(contraction, length)
         pull = self._loaded.pull(grip_force, spring, direction)
         return pull, self._loaded.inside(contraction, pull)
 
