@@ -91,8 +91,9 @@ class Covariance(Section):
             apart = abs(rows[a][b] - rows[b][a])
             if apart > ROUNDED * most or abs(rows[a][b]) > (1 + ROUNDED) * most:
                 message = (
-                    f"{one} and {other} cannot have covariances of {rows[a][b]:g} and"
-                    f" {rows[b][a]:g}: they are the same, and at most {most:g} here"
+                    f"the covariances of {one} and {other}, {rows[a][b]:g} and"
+                    f" {rows[b][a]:g}, must be one number, of at most {most:g} either"
+                    " way by their variances"
                 )
                 raise ValueError(message)
         return self

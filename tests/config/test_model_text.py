@@ -296,13 +296,12 @@ def test_numbers_that_were_fitted_together_stay_so_in_a_chain(tmp_path: Path) ->
         (
             "seed: 1",
             "seed: 1, covariance: {parameters: [a, b], matrix: [[1, 3], [3, 4]]}",
-            "a and b cannot have covariances of 3 and 3: they are the same, and at"
-            " most 2 here",
+            "the covariances of a and b, 3 and 3, must be one number, of at most 2",
         ),
         (
             "seed: 1",
             "seed: 1, covariance: {parameters: [a, b], matrix: [[1, 1], [0, 4]]}",
-            "a and b cannot have covariances of 1 and 0",
+            "the covariances of a and b, 1 and 0, must be one number",
         ),
         (
             "seed: 1",
