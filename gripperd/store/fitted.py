@@ -60,12 +60,12 @@ def fitted(diagnosis: Diagnosis) -> Fitted:
 
 def kept(diagnosis: Diagnosis) -> Point:
     """What was found without what belongs to the rig of the recording."""
-    point, constants = diagnosis.explained, diagnosis.found.problem.constants
-    shifts = np.where([is_owned(one) for one in constants], point.shifts, 0.0)
-    places = {one.path: place for place, one in enumerate(constants)}
+    point, moved = diagnosis.explained, diagnosis.found.problem.constants
+    shifts = np.where([is_owned(one) for one in moved], point.shifts, 0.0)
+    places = {one.path: place for place, one in enumerate(moved)}
     if {WIDTH, ZERO} <= places.keys():
-        moved = constants[places[ZERO]].value(point.shifts[places[ZERO]])
-        shifts[places[WIDTH]] += moved / constants[places[WIDTH]].sigma
+        zero = moved[places[ZERO]].value(point.shifts[places[ZERO]])
+        shifts[places[WIDTH]] += zero / moved[places[WIDTH]].sigma
     return replace(point, shifts=shifts)
 
 
