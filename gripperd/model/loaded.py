@@ -95,10 +95,15 @@ class LoadedLinkage:
         DomainError
             None comes through: they lock.
         """
-        ratio = self.linkage.ratio
-        share = 1 - ratio * self._taken(direction) / self._kept(direction)
+        taken = self._taken(direction)
+        coming = self._kept(direction) / self.linkage.ratio
+        share = 1 - taken / coming
         if np.any(np.less_equal(share, 0)):
-            message = "the friction of the joints takes all that the muscle pulls with"
+            message = (
+                "the friction of the joints takes all that the muscle pulls with:"
+                f" pull_loss is {np.max(taken):g}, and {np.min(coming):.3g} of the pull"
+                " comes to each jaw"
+            )
             raise DomainError(message, key="pull_loss")
         return share
 

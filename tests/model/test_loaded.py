@@ -103,7 +103,9 @@ def test_joints_carry_more_than_the_jaws_while_closing() -> None:
 def test_joints_that_lock_are_an_error_and_not_a_grip() -> None:
     """Of the pull a quarter comes to each jaw, and they take more."""
     locked = LoadedLinkage(LINKAGE, (LinkageFriction(pull_loss=0.26),))
-    with pytest.raises(DomainError, match="takes all that the muscle") as refused:
+    with pytest.raises(
+        DomainError, match=r"pull_loss is 0.26, and 0.25 of the pull"
+    ) as refused:
         locked.grip_force(tension, 0.06, Direction.CONTRACTING, LENGTH)
     assert refused.value.key == "pull_loss"
     assert locked.grip_force(tension, 0.06, Direction.EXTENDING, LENGTH) > 0
