@@ -133,7 +133,7 @@ def failing(held: Held, name: str, inject: Callable[[Held], Injected]) -> Row:
         noticed="degraded; recorded later",
         took=(took,),
         limit=SAID_WITHIN,
-        wrong=tuple(sorted(wrong | held.wrong())),
+        wrong=tuple(sorted(wrong | held.wrong(adjusted=True))),
     )
 
 
@@ -146,7 +146,7 @@ def _done_again(held: Held, before: str) -> set[str]:
 
 def _as_promised(held: Held, unkept: int) -> set[str]:
     """What does not go on as it must without a disk."""
-    wrong = held.wrong()
+    wrong = held.wrong(adjusted=True)
     if unkept != 202:
         wrong.add(f"a command without a key got {unkept}")
     refused = held.give("given without a disk", type="adjust")
@@ -180,7 +180,7 @@ def corrupt(held: Held) -> Row:
         return any("damaged history was set aside" in each["text"] for each in events)
 
     took = held.since(start, told)
-    wrong = held.wrong() | _done_again(held, before)
+    wrong = held.wrong(adjusted=True) | _done_again(held, before)
     aside = [each.stat().st_size for each in path.parent.glob("history.damaged-*.db")]
     if len(aside) != 1 or aside[0] < len(content):
         wrong.add("the damaged file is lost")
