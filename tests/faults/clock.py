@@ -101,7 +101,7 @@ def _shifted(held: Held, wall: Wall, name: str, shift: Callable[[], None]) -> Ro
     stepped = datetime.fromisoformat(done["created_at"]).timestamp() - time.time()
     expected = wall.offset
     wall.step(0)
-    wrong = _records(held, before, done["id"]) | held.wrong(adjusted=True)
+    wrong = _records(held, before, done["id"]) | held.adjusted().wrong()
     if lasted < TTL:
         wrong.add(f"a lease of {TTL:g} s lasted {lasted:.1f} s")
     if abs(stepped - expected) > HOUR / 2:

@@ -123,6 +123,7 @@ def failing(held: Held, name: str, inject: Callable[[Held], Injected]) -> Row:
         unkept = held.http.post(COMMANDS, json={"type": "adjust"})
         took = held.since(start, lambda: "degraded" in held.answer("/health/ready"))
         held.over(unkept)
+        held = held.adjusted()
         wrong |= _as_promised(held, unkept.status_code)
     held.since(start, lambda: "degraded" not in held.answer("/health/ready"))
     name_of = unkept.json()["id"]
@@ -133,7 +134,7 @@ def failing(held: Held, name: str, inject: Callable[[Held], Injected]) -> Row:
         noticed="degraded; recorded later",
         took=(took,),
         limit=SAID_WITHIN,
-        wrong=tuple(sorted(wrong | held.wrong(adjusted=True))),
+        wrong=tuple(sorted(wrong | held.wrong())),
     )
 
 
@@ -146,7 +147,7 @@ def _done_again(held: Held, before: str) -> set[str]:
 
 def _as_promised(held: Held, unkept: int) -> set[str]:
     """What does not go on as it must without a disk."""
-    wrong = held.wrong(adjusted=True)
+    wrong = held.wrong()
     if unkept != 202:
         wrong.add(f"a command without a key got {unkept}")
     refused = held.give("given without a disk", type="adjust")
@@ -169,6 +170,7 @@ def corrupt(held: Held) -> Row:
     """Overwrite the database, and start the service anew on what is left."""
     path = held.folder / "state" / "history.db"
     old, before = held.process("service"), held.give(KEPT, type="adjust").json()["id"]
+    held = held.adjusted()
     content = Random(1).randbytes(path.stat().st_size)
     start = time.monotonic()
     path.write_bytes(content)
@@ -180,7 +182,7 @@ def corrupt(held: Held) -> Row:
         return any("damaged history was set aside" in each["text"] for each in events)
 
     took = held.since(start, told)
-    wrong = held.wrong(adjusted=True) | _done_again(held, before)
+    wrong = held.wrong() | _done_again(held, before)
     aside = [each.stat().st_size for each in path.parent.glob("history.damaged-*.db")]
     if len(aside) != 1 or aside[0] < len(content):
         wrong.add("the damaged file is lost")

@@ -4,9 +4,9 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import httpx
 
@@ -16,7 +16,7 @@ from tests.daemon import Daemon, children, running_daemon, until
 PATIENCE = 60.0
 """Longest wait for anything. [s]"""
 SETTLED = 0.02
-"""Share by which the force may differ while nobody asks for another. [-]"""
+"""Share by which the force may differ. [-]"""
 ASKED = 12.0
 """Force of each jaw that the shipped profile of an egg asks for. [N]"""
 ADJUSTED = TOLERANCE_SHARE + 0.01
@@ -58,21 +58,22 @@ class Held:
         until(happened, PATIENCE)
         return time.monotonic() - start
 
-    def wrong(self, *, adjusted: bool = False) -> set[str]:
-        """What is not as it was when the egg had been grasped, once nothing moves.
+    def adjusted(self) -> Self:
+        """The same from a command on that has brought the force to its target again."""
+        force = float(self.answer("/bench")["force_N"])
+        assert abs(force - ASKED) <= ADJUSTED * ASKED, f"{force:.2f} N"
+        return replace(self, force=force)
 
-        A command given since then has brought the force to what is asked for again,
-        as near as a command does.
-        """
+    def wrong(self) -> set[str]:
+        """What is not as it was when the egg had been grasped, once nothing moves."""
         until(lambda: self.answer("/grippers/g0").get("machine") not in UNSETTLED)
         state, truth = self.http.get("/grippers/g0").json(), self.http.get("/bench")
         force = truth.json()["force_N"]
         found = set[str]()
         if (state["machine"], state["grip"]) != ("ready", "holding"):
             found.add(f"{state['machine']}, {state['grip']}")
-        right, share = (ASKED, ADJUSTED) if adjusted else (self.force, SETTLED)
-        if abs(force - right) > share * right:
-            found.add(f"{right:.2f} N became {force:.2f} N")
+        if abs(force - self.force) > SETTLED * self.force:
+            found.add(f"{self.force:.2f} N became {force:.2f} N")
         if truth.json()["object"]["cracked"]:
             found.add("cracked")
         return found
