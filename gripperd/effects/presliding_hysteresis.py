@@ -21,7 +21,14 @@ from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried, settled
-from gripperd.model.preisach import BARE, NARROWEST, PARAMETERS, Hysteron, Relays
+from gripperd.model.preisach import (
+    BARE,
+    CLOSEST,
+    NARROWEST,
+    PARAMETERS,
+    Hysteron,
+    Relays,
+)
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
@@ -30,6 +37,9 @@ SHORTEST = 0.006
 SUDDEN = 0.009
 """Way of the middle spring up to which the near one slips within 0.3 %: as little as a
 length is read by, and dry friction turns round over as much. [-]"""
+NARROW = 0.01
+"""Least half width of relays. A muscle that sticks or snaps at one length has much
+narrower ones, close together. [-]"""
 AT_ONCE = 0.95
 """Share of all that the near spring carries then, from which the force jumps. [-]"""
 
@@ -89,13 +99,9 @@ class PreslidingHysteresis(InMuscle):
     """What remembers."""
     relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
     """Given by the relays with all up; their loop loses work if it is positive. [N]"""
-    radius: float = shape(unit=None, starts=(0.025,), low=0.01, high=0.035)
-    """Half the width of the narrow ones. [-]
-
-    No travel switches much wider ones, and a muscle that sticks at one length has much
-    narrower ones, close together.
-    """
-    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=1.0)
+    radius: float = shape(unit=None, starts=(0.025,), low=NARROW, high=0.035)
+    """Half the width of the narrow ones; no travel switches much wider ones. [-]"""
+    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=CLOSEST)
     """The same in scales of their density: much less, and they lie far apart. [-]"""
     wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """Share of those three times as wide. [-]"""
@@ -111,6 +117,11 @@ class PreslidingHysteresis(InMuscle):
         jumps = self.near > AT_ONCE * total and self.contraction <= SUDDEN
         slips = self.hysteron is Hysteron.STOP and jumps
         return "coulomb_friction" if slips else ""
+
+    @property
+    def is_misnamed(self) -> bool:
+        """Something snaps at one length: a fold of the bladder, a cable, a stop."""
+        return self.hysteron is Hysteron.RELAY and self._relays.snap(NARROW)
 
     @property
     def forgetful(self) -> Self:

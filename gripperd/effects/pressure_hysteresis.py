@@ -20,9 +20,19 @@ from gripperd.model.kinds import InMuscle
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.prandtl import at_rest, begin_at, carried, reaches, settled
-from gripperd.model.preisach import BARE, NARROWEST, PARAMETERS, Hysteron, Relays
+from gripperd.model.preisach import (
+    BARE,
+    CLOSEST,
+    NARROWEST,
+    PARAMETERS,
+    Hysteron,
+    Relays,
+)
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
+
+NARROW = 20e3
+"""Least half width of relays: what switches at one pressure has narrower ones. [Pa]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +89,9 @@ class PressureHysteresis(InMuscle):
     """What remembers."""
     relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
     """Given at rest length by the relays with all of them up. [N]"""
-    radius: float = shape(unit="kPa", starts=(50e3,), low=20e3, high=80e3)
+    radius: float = shape(unit="kPa", starts=(50e3,), low=NARROW, high=80e3)
     """Half the width of the narrow ones; no muscle switches much wider ones. [Pa]"""
-    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=1.0)
+    width: float = shape(unit=None, starts=(0.5,), low=NARROWEST, high=CLOSEST)
     """The same in scales of their density: much less, and they lie far apart. [-]"""
     wide: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """Share of those three times as wide. [-]"""
@@ -89,6 +99,11 @@ class PressureHysteresis(InMuscle):
     """Mean pressure at which relays switch. [Pa]"""
     curve: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0)
     """Share that is left of the curve they would follow without a loop. [-]"""
+
+    @property
+    def is_misnamed(self) -> bool:
+        """Something snaps at one pressure: a fold of the bladder, a cable, a stop."""
+        return self.hysteron is Hysteron.RELAY and self._relays.snap(NARROW)
 
     @property
     def forgetful(self) -> Self:

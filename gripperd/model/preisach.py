@@ -22,8 +22,12 @@ from gripperd.model.track import Array
 NARROWEST = 0.25
 """Least half width of relays in scales of their density: up and down are 12 % apart
 there, of all. Closer together they are a curve, with hardly a loop. [-]"""
+CLOSEST = 1.0
+"""The most of the same: all of them switch within about their own width. [-]"""
 BARE = 1e-3
 """Share of their width of which relays have hardly a loop left. [-]"""
+HELD = 0.01
+"""Share of a limit within which a number is held by it. [-]"""
 PARAMETERS = ("relays", "radius", "width", "wide", "centre", "curve")
 """Names of those of an effect that relays alone have."""
 
@@ -52,6 +56,15 @@ class Relays:
     curve: float
     """Share that is left of the curve they would follow without a loop, from where the
     signal is 0: none for their memory alone. [0..1]"""
+
+    def snap(self, narrowest: float) -> bool:
+        """Whether they would be narrower and closer yet, if they might: one switch.
+
+        What they stand for lets go at one place and catches at another, as a fold of a
+        bladder that snaps or a cable that is caught; no bank of relays is so.
+        """
+        narrow = self.radius <= (1 + HELD) * narrowest
+        return narrow and self.width >= (1 - HELD) * CLOSEST
 
     def up(self, signal: Array, memory: Array) -> Array:
         """Share that is up along a path, however fast it is run, less the curve. [-].

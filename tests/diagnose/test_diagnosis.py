@@ -290,23 +290,6 @@ def test_a_force_that_jumps_once_is_not_named_a_drift() -> None:
     assert any(word.startswith("force: jumps by -") for word in told.signature)
 
 
-@pytest.mark.parametrize(
-    ("way", "verdict"), [(0.004, Verdict.UNEXPLAINED), (0.025, Verdict.NAMED)]
-)
-def test_what_pulls_near_rest_length_alone_is_no_rubber(
-    way: float, verdict: Verdict
-) -> None:
-    """A cable that is taut there, and a bladder that is soft after 10 mm."""
-
-    def pulling(moment: Moment) -> Array:
-        return 30.0 * np.expm1(-moment.contraction / way)
-
-    rubber = {"nonlinear_elasticity": EFFECTS["nonlinear_elasticity"]}
-    told = diagnose(recording(pulling), MODEL, {}, rubber)
-    assert _names(told) == ["nonlinear_elasticity"]
-    assert told.verdict is verdict
-
-
 def test_a_bore_that_its_tolerance_holds_back_is_told_beside_the_effect() -> None:
     built = replace(MODEL, muscle=replace(MODEL.muscle, diameter=0.0208))
     known = {"muscle.diameter": 1e-4, "muscle.braid_angle": 1.7e-3}

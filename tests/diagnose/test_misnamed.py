@@ -1,0 +1,73 @@
+"""What fits an effect only where nothing is that bears its name."""
+
+import numpy as np
+import pytest
+
+from gripperd.diagnose.diagnosis import diagnose
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.effects import EFFECTS
+from gripperd.model.track import Array
+from tests.diagnose.small import MODEL, Moment, recording
+
+
+@pytest.mark.parametrize(
+    ("way", "verdict"), [(0.004, Verdict.UNEXPLAINED), (0.025, Verdict.NAMED)]
+)
+def test_what_pulls_near_rest_length_alone_is_no_rubber(
+    way: float, verdict: Verdict
+) -> None:
+    """A cable that is taut there, and a bladder that is soft after 10 mm."""
+
+    def pulling(moment: Moment) -> Array:
+        return 30.0 * np.expm1(-moment.contraction / way)
+
+    rubber = {"nonlinear_elasticity": EFFECTS["nonlinear_elasticity"]}
+    told = diagnose(recording(pulling), MODEL, {}, rubber)
+    assert [entry.name for entry in told.named] == ["nonlinear_elasticity"]
+    assert told.verdict is verdict
+
+
+def _switched(signal: Array, middles: Array, half: float) -> Array:
+    """Share of relays that are up, each switched by itself."""
+    up = signal[0] > middles
+    shares = []
+    for value in signal:
+        up = np.where(up, value > middles - half, value > middles + half)
+        shares.append(up.mean())
+    return np.array(shares)
+
+
+@pytest.mark.parametrize(
+    ("spread", "verdict"), [(0.0, Verdict.UNEXPLAINED), (0.05, Verdict.NAMED)]
+)
+def test_what_snaps_at_one_length_is_no_memory_of_strands(
+    spread: float, verdict: Verdict
+) -> None:
+    """A fold that opens at 9 % and closes at 6 %, and a bank of such switches."""
+    middles = np.random.default_rng(3).normal(0.075, spread, 400)
+
+    def folding(moment: Moment) -> Array:
+        return 60.0 * _switched(moment.contraction, middles, 0.015)
+
+    memory = {"presliding_hysteresis": EFFECTS["presliding_hysteresis"]}
+    told = diagnose(recording(folding), MODEL, {}, memory)
+    assert [entry.name for entry in told.named] == ["presliding_hysteresis"]
+    assert told.verdict is verdict
+
+
+@pytest.mark.parametrize(
+    ("spread", "verdict"), [(0.0, Verdict.UNEXPLAINED), (80e3, Verdict.NAMED)]
+)
+def test_what_snaps_at_one_pressure_is_no_memory_of_a_bladder(
+    spread: float, verdict: Verdict
+) -> None:
+    """A fold that opens at 280 kPa and closes at 220 kPa, and a bank of such."""
+    middles = np.random.default_rng(3).normal(250e3, spread, 400)
+
+    def folding(moment: Moment) -> Array:
+        return 60.0 * _switched(moment.pressure, middles, 30e3)
+
+    memory = {"pressure_hysteresis": EFFECTS["pressure_hysteresis"]}
+    told = diagnose(recording(folding), MODEL, {}, memory)
+    assert [entry.name for entry in told.named] == ["pressure_hysteresis"]
+    assert told.verdict is verdict
