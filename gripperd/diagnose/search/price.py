@@ -28,6 +28,9 @@ LEAST_OWN = 100.0
 """Fall of chi² that each effect that bends leaves at least of one of its own. [-]"""
 UNBENT = 0.8
 """Share of a gain that bending leaves, from which form has no part in it. [-]"""
+NEARLY = 1.1
+"""Mean square of what is left, over that of noise, up to which that may still be noise:
+its level is known to a twentieth. [-]"""
 ELSEWHERE = 0.3
 """Share of a gain from which a signal counts as gaining. [-]"""
 MUCH = 0.4
@@ -132,8 +135,9 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     """Whether an addition mends no form before it: what it closes stays closed.
 
     Those forms bend that act where it gains. One that has not paid its price must leave
-    but noise; if it does so only with forms that bend, it must keep most of its gain.
-    Known to look like one that bends, it must keep most of it as well.
+    but noise, or nearly so if form has no part in its gain; if it does so only with
+    forms that bend, it must keep most of its gain. Known to look like one that bends,
+    it must keep most of it as well.
     """
     further = best.fit.cost - larger.fit.cost
     bending = _bending(problem, best, larger)
@@ -143,10 +147,12 @@ def _stands_alone(problem: Problem, best: Rival, larger: Rival, *, paid: bool) -
     noise = larger.fit.samples + (2 * larger.fit.samples) ** 0.5
     sure = paid or larger.fit.cost < noise <= before
     kept = MENDED if sure else OWN
-    kept = OWN_DOUBLE if _looks_like(best, larger, bending) else kept
+    is_double = _looks_like(best, larger, bending)
+    kept = OWN_DOUBLE if is_double else kept
     if before - after <= max(least, kept * further):
         return False
-    return paid or after < noise
+    is_other = unbent and not is_double
+    return paid or after < (NEARLY * larger.fit.samples if is_other else noise)
 
 
 def _gained(problem: Problem, best: Rival, larger: Rival) -> frozenset[Signal]:

@@ -212,6 +212,27 @@ def test_of_a_small_gain_bending_the_first_must_leave_nearly_all(
 
 
 @pytest.mark.parametrize(
+    ("left", "share", "worth_it"),
+    [(1.05, 0.9, True), (1.05, 0.7, False), (1.15, 0.9, False)],
+)
+def test_what_no_bending_takes_need_leave_but_nearly_noise(
+    monkeypatch: pytest.MonkeyPatch, left: float, share: float, *, worth_it: bool
+) -> None:
+    problem, (null, best, larger) = _fits(
+        recording(_stretches_and_rubs(7.0)), THRESHOLD, RUB
+    )
+    cost, further = left * larger.fit.samples, best.fit.cost - larger.fit.cost
+    assert further < 0.06 * (null.fit.cost - larger.fit.cost)
+    best, larger = (
+        replace(one, fit=replace(one.fit, cost=own))
+        for one, own in ((best, cost + further), (larger, cost))
+    )
+    bare = {1: cost + share * further, 2: cost}
+    monkeypatch.setattr(price, "bent", lambda _, rival, __: bare[len(rival.names)])
+    assert worth(problem, null, best, larger, 20.0) is worth_it
+
+
+@pytest.mark.parametrize(
     ("further", "worth_it"), [(OFFSET, True), (RUB, False)], ids=["valve", "muscle"]
 )
 def test_what_gains_where_nothing_bends_need_not_outdo_a_bend(
