@@ -67,3 +67,18 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
         if loop < OWN * (polished(problem, others).cost - rival.fit.cost):
             return False
     return True
+
+
+def is_but_curve(rival: Rival, other: Rival) -> bool:
+    """Tell whether what has a loop is hardly likelier than what has none in its place.
+
+    Parameters
+    ----------
+    rival, other
+        Explanations that differ in one place.
+    """
+    own = [one for one in rival.fit.point.effects if one.name not in other.names]
+    new = [one for one in other.fit.point.effects if one.name not in rival.names]
+    has_loop = any(one.forgetful is not one for one in own)
+    goes_one_way = not any(one.turns or one.rest().size for one in new)
+    return has_loop and goes_one_way and rival.evidence - other.evidence < SEEN

@@ -15,7 +15,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import LEAST
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.limit import has_become
-from gripperd.diagnose.search.loop import discernible, shows_its_loop
+from gripperd.diagnose.search.loop import discernible, is_but_curve, shows_its_loop
 from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
 
@@ -83,6 +83,7 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
             for rival in rivals
             if rival.evidence > best.evidence + EVEN
             and not has_become(rival, best)
+            and not is_but_curve(rival, best)
             and _pays(found, bare, rival)
         ]
         if not ahead:
@@ -134,6 +135,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
             for rival in rivals
             if best.evidence - rival.evidence < margin
             and not has_become(rival, best)
+            and not is_but_curve(rival, best)
             and not _is_held(problem, rival, index)
             and _stands_in(found, best, index, place.without, rival)
         )
@@ -170,12 +172,16 @@ def _by_its_name(
     without: Sequence[Rival],
     challenged: Sequence[Sequence[Rival]],
 ) -> Rival:
-    """Give the best by the name of what it has become, if that explains as much."""
+    """Give the best by the name of what it has become, if that explains as much.
+
+    A loop that is hardly needed has become the likeliest curve.
+    """
     for index, (bare, rivals) in enumerate(zip(without, challenged, strict=True)):
         for rival in rivals:
             if has_become(best, rival) and _stands_in(found, best, index, bare, rival):
                 return rival
-    return best
+    curves = [one for own in challenged for one in own if is_but_curve(best, one)]
+    return max(curves, key=lambda rival: rival.evidence, default=best)
 
 
 def _challenged(

@@ -8,12 +8,14 @@ from gripperd.diagnose.fit.inflation import louder
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.point import Point
-from gripperd.diagnose.search import loop
-from gripperd.diagnose.search.loop import discernible, shows_its_loop
+from gripperd.diagnose.search import loop, rivalry
+from gripperd.diagnose.search.loop import discernible, is_but_curve, shows_its_loop
 from gripperd.diagnose.search.rivalry import contest
 from gripperd.diagnose.search.stepwise import additions, search
 from gripperd.diagnose.setup import problem_of
+from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.nonlinear_elasticity import NonlinearElasticity
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.effects.pressure_hysteresis import PressureHysteresis
 from gripperd.model.effect import Effect, Signal
@@ -135,3 +137,48 @@ def test_relays_are_neither_added_nor_challenge_far_above_the_noise(
     found = ended(problem, fitted(problem, bias))
     assert bool(additions(found, found.best, listed, 4)) is heard
     assert (OF_PRESSURE.name in contest(found, listed).best.names) is heard
+
+
+CURVE = Candidate("nonlinear_elasticity", NonlinearElasticity(saturation=10.0))
+RELAYS = Candidate("presliding_hysteresis", OF_WAY)
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+SPRINGS = Candidate("presliding_hysteresis", PreslidingHysteresis(near=10.0))
+
+
+@pytest.mark.parametrize(
+    ("own", "other", "lead", "is_curve"),
+    [
+        (RELAYS, CURVE, 12.0, True),
+        (RELAYS, CURVE, 14.0, False),
+        (RELAYS, RUB, 12.0, False),
+        (SPRINGS, CURVE, 12.0, False),
+        (CURVE, RELAYS, 12.0, False),
+    ],
+)
+def test_a_loop_must_be_likelier_than_what_has_none(
+    own: Candidate, other: Candidate, lead: float, *, is_curve: bool
+) -> None:
+    problem = problem_of(recording(bank_of_way(0.02)), MODEL, {})
+    rival, plain = fitted(problem, own), fitted(problem, other)
+    cost = rival.fit.cost + 2 * (rival.evidence - plain.evidence - lead)
+    rival = replace(rival, fit=replace(rival.fit, cost=cost))
+    assert is_but_curve(rival, plain) is is_curve
+
+
+@pytest.mark.parametrize("first", [RELAYS, CURVE], ids=["loop", "curve"])
+@pytest.mark.parametrize(("hardly", "told"), [(True, CURVE), (False, RELAYS)])
+def test_a_loop_that_is_hardly_likelier_than_a_curve_is_that_curve(
+    monkeypatch: pytest.MonkeyPatch, first: Candidate, told: Candidate, *, hardly: bool
+) -> None:
+    monkeypatch.setattr(
+        rivalry,
+        "is_but_curve",
+        lambda rival, other: (
+            hardly and RELAYS in {*rival.candidates} - {*other.candidates}
+        ),
+    )
+    problem = problem_of(recording(bank_of_way(0.02)), MODEL, {})
+    found = ended(problem, fitted(problem, first))
+    done = contest(found, [RELAYS, CURVE])
+    assert done.best.candidates == (told,)
+    assert done.equivalents == ((),)
