@@ -83,7 +83,6 @@ def contest(found: Found, listed: Sequence[Candidate]) -> Contest:
             for rival in rivals
             if rival.evidence > best.evidence + EVEN
             and not has_become(rival, best)
-            and not is_but_curve(rival, best)
             and _pays(found, bare, rival)
         ]
         if not ahead:
