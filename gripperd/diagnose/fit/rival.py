@@ -34,6 +34,11 @@ class Rival:
         return within - self.fit.point.surprise
 
     @property
+    def is_misnamed(self) -> bool:
+        """Whether numbers of an effect lie where nothing is that bears its name."""
+        return any(one.is_misnamed for one in self.fit.point.effects)
+
+    @property
     def excess(self) -> float:
         """Chi² above what noise alone has. [-]."""
         return float(sum(self.fit.misfits.values())) - self.fit.samples

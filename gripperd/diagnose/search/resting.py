@@ -4,12 +4,12 @@ At rest the friction of eq. (7) is set-valued, and a rig may have come to rest e
 way. A wrong sign would look like an effect.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import WRONG, Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
@@ -17,10 +17,14 @@ from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.stages import BRAIDED
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.rivalry import removed
+from gripperd.diagnose.search.stepwise import NEXT, additions
 from gripperd.model.effect import Signal
 
 DECIDED = 5.0
 """By so much another convention must be better. [nat]"""
+BRAID = WRONG + "muscle.friction_coefficient"
 TELLING = (
     "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
     "threshold_pressure", "force_sensor_bias", "force_sensor_gain",
@@ -67,7 +71,7 @@ def _of(model: Explanation) -> list[AtRest]:
     return [sign for sign in AtRest if rubs or sign is not AtRest.BLADDER]
 
 
-def with_sign_beside(problem: Problem, found: Rival) -> Problem:
+def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
     """Give the problem with another sign at rest, if it fits better beside the found.
 
     What nobody knew of when the sign was chosen may have stood behind it: a cell that
@@ -75,21 +79,38 @@ def with_sign_beside(problem: Problem, found: Rival) -> Problem:
 
     Parameters
     ----------
-    problem
-        As it was searched.
     found
-        The best explanation of it.
+        The search, with the problem as it was searched.
+    listed
+        What could be missing.
     """
-    if not found.candidates or not rests(problem):
+    problem, here = found.problem, found.best
+    if not here.candidates or not rests(problem):
         return problem
-    best, most = problem, found.evidence
+    best, most = problem, here.evidence
     for sign in AtRest:
-        if sign is not problem.model.at_rest:
-            tried = replace(problem, model=replace(problem.model, at_rest=sign))
-            fit = polished(tried, found.fit.point)
-            if (evidence := replace(found, fit=fit).evidence) > most + DECIDED:
-                best, most = tried, evidence
+        if sign is problem.model.at_rest:
+            continue
+        tried = replace(problem, model=replace(problem.model, at_rest=sign))
+        fits = _beside(replace(found, problem=tried), listed)
+        if (evidence := max(one.evidence for one in fits)) > most + DECIDED:
+            best, most = tried, evidence
     return best
+
+
+def _beside(found: Found, listed: Sequence[Candidate]) -> Iterator[Rival]:
+    """Give the best as it is; where its braid rubs otherwise, with others instead.
+
+    A braid that hardly rubs any more takes no notice of its sign, and hides it.
+    """
+    problem, here = found.problem, found.best
+    yield replace(here, fit=polished(problem, here.fit.point))
+    for one in here.candidates:
+        if one.name == BRAID:
+            others = tuple(other for other in here.candidates if other is not one)
+            point = removed(problem, here.fit.point, one)
+            bare = Rival(others, polished(problem, point))
+            yield from (bare, *additions(found, bare, listed, NEXT))
 
 
 def rests(problem: Problem) -> bool:

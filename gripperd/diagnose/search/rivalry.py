@@ -135,6 +135,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
             if best.evidence - rival.evidence < margin
             and not has_become(rival, best)
             and not is_but_curve(rival, best)
+            and not rival.is_misnamed
             and not _is_held(problem, rival, index)
             and _stands_in(found, best, index, place.without, rival)
         )

@@ -59,7 +59,7 @@ def selected(
     train = as_read(parts.train, listed)
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
-    beside = with_sign_beside(found.problem, found.best)
+    beside = with_sign_beside(found, listed)
     if beside is not found.problem:
         train = replace(train, model=beside.model)
         found = search(train, listed, rng)

@@ -62,15 +62,16 @@ def completed(
         told = best.best
         if not any(gap.is_open for gap in _compared(parts, inside, told, told)):
             break
-        closing = {
-            _closed(_compared(parts, inside, told, one)): one
+        # What bears its name by right comes first.
+        ranked = {
+            (not one.is_misnamed, _closed(_compared(parts, inside, told, one))): one
             for one in additions(found, told, listed, HEARD)
             if is_seen(found.problem, told, one)
         }
-        most = max(closing, default=0.0)
-        if most < CLOSED:
+        closing = [rank for rank in ranked if rank[1] >= CLOSED]
+        if not closing:
             break
-        champion = closing[most]
+        champion = ranked[max(closing)]
         best = contest(replace(found, best=champion), listed)
         if len(best.best.candidates) <= len(told.candidates):
             break

@@ -88,10 +88,9 @@ def conclude(
     share = 1 - left / excess if excess > 0 else 1.0
     remains = bool(_remaining(after))
     louder = _louder(problem, contest.best.fit)
-    unlike = any(effect.is_misnamed for effect in contest.best.fit.point.effects)
     if not contest.best.candidates:
         verdict = Verdict.UNEXPLAINED if remains or louder else Verdict.NONE
-    elif is_near or unlike or (remains and share < EXPLAINED):
+    elif is_near or contest.best.is_misnamed or (remains and share < EXPLAINED):
         verdict = Verdict.UNEXPLAINED
     elif any(contest.equivalents):
         verdict = Verdict.AMBIGUOUS

@@ -5,9 +5,12 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate, candidates
+from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search import resting
+from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.resting import with_resting_sign, with_sign_beside
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
@@ -16,7 +19,7 @@ from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-from tests.diagnose.fitted import fitted
+from tests.diagnose.fitted import ended, fitted
 from tests.diagnose.small import (
     MODEL,
     Hidden,
@@ -31,6 +34,10 @@ from tests.diagnose.small import (
 
 COLUMNS = frozenset({"time", "current", "pressure", "contraction", "force"})
 LIBRARY = {name: EFFECTS[name] for name in ("coulomb_friction", "force_sensor_bias")}
+
+
+def _beside(problem: Problem, *found: Candidate) -> Problem:
+    return with_sign_beside(ended(problem, fitted(problem, *found)), found)
 
 
 def _decided(told: Recording) -> tuple[Problem, Problem]:
@@ -104,16 +111,42 @@ def _late() -> Problem:
 def test_a_cell_found_to_be_late_takes_friction_back_to_what_it_was() -> None:
     problem = _late()
     assert problem.model.at_rest is AtRest.INFLATING
-    assert with_sign_beside(problem, fitted(problem)) is problem
+    assert _beside(problem) is problem
     cell = ChannelDelay(delay=0.3, channel=Signal.FORCE)
-    found = fitted(problem, Candidate("channel_delay", cell))
-    assert with_sign_beside(problem, found).model.at_rest is AtRest.CARRIED
+    late = Candidate("channel_delay", cell)
+    assert _beside(problem, late).model.at_rest is AtRest.CARRIED
 
 
 def test_friction_that_is_found_leaves_its_sign_as_it_is() -> None:
     _, problem = _decided(recording(_turning))
     rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
-    assert with_sign_beside(problem, fitted(problem, rub)) is problem
+    assert _beside(problem, rub) is problem
+
+
+@pytest.mark.parametrize(
+    ("path", "sign"),
+    [
+        ("muscle.friction_coefficient", AtRest.BLADDER),
+        ("muscle.diameter", AtRest.CARRIED),
+    ],
+)
+def test_a_braid_that_rubs_otherwise_must_not_hide_the_sign(
+    monkeypatch: pytest.MonkeyPatch, path: str, sign: AtRest
+) -> None:
+    """Without it something else would be there that knows the sign."""
+    problem = problem_of(recording(rubbing(25.0)), MODEL, {})
+    assert problem.model.at_rest is AtRest.CARRIED
+    index = [one.path for one in problem.constants].index(path)
+    wrong = Candidate(f"parameter:{path}", None, index)
+    rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+
+    def more(found: Found, bare: Rival, *_: object) -> list[Rival]:
+        assert bare.names == ("coulomb_friction",)
+        likely = replace(bare, fit=replace(bare.fit, cost=-1e6))
+        return [likely] if found.problem.model.at_rest is AtRest.BLADDER else []
+
+    monkeypatch.setattr(resting, "additions", more)
+    assert _beside(problem, rub, wrong).model.at_rest is sign
 
 
 def _sliding(moment: Moment) -> Array:
@@ -126,9 +159,9 @@ def _sliding(moment: Moment) -> Array:
 
 def test_a_rod_that_rubs_does_not_keep_the_bladder_from_sliding_in_its_braid() -> None:
     _, problem = _decided(recording(_sliding))
-    assert with_sign_beside(problem, fitted(problem)) is problem
+    assert _beside(problem) is problem
     rub = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
-    beside = with_sign_beside(problem, fitted(problem, rub))
+    beside = _beside(problem, rub)
     assert beside.model.at_rest is AtRest.BLADDER
 
 

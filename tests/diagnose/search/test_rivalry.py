@@ -104,6 +104,14 @@ def test_twins_are_equivalent(problem: Problem) -> None:
     assert {own, *others} == {"coulomb_friction", "twin"}
 
 
+def test_what_bears_its_name_by_no_right_is_no_equivalent(
+    problem: Problem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Twin, "is_misnamed", True)
+    believed = _believing(_found(problem, RUB), RUB)
+    assert contest(believed, (RUB, TWIN)).equivalents == ((),)
+
+
 @pytest.mark.parametrize("own", [RUB, TWIN])
 def test_a_twin_takes_no_place(problem: Problem, own: Candidate) -> None:
     # Which of them has been fitted a little further is up to the processor.

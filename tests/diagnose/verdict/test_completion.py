@@ -1,5 +1,6 @@
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -55,6 +56,29 @@ def test_what_was_left_out_adds_what_is_missing() -> None:
     friction = more.best.fit.point.effects[-1]
     assert isinstance(friction, CoulombFriction)
     assert friction.magnitude == pytest.approx(12.0, abs=1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Twin(CoulombFriction):
+    """The same formula by another name."""
+
+    name: ClassVar[str] = "twin"
+
+    @property
+    def is_misnamed(self) -> bool:
+        return False
+
+
+@pytest.mark.parametrize("stranger", [CoulombFriction, Twin])
+def test_what_bears_its_name_by_right_comes_first(
+    monkeypatch: pytest.MonkeyPatch, stranger: type[CoulombFriction]
+) -> None:
+    monkeypatch.setattr(stranger, "is_misnamed", True)
+    parts, found, best = _with_threshold(rubbing(12.0))
+    both = (RUB, Candidate("twin", Twin()))
+    (right,) = (one for one in both if type(one.effect) is not stranger)
+    more = completed(parts, parts.test, found, best, (THRESHOLD, *both))
+    assert more.best.names == ("threshold_pressure", right.name)
 
 
 @pytest.mark.parametrize(("newtons", "noise"), [(0.0, 1.0), (12.0, 4.0), (4.5, 0.1)])
