@@ -10,15 +10,13 @@ References
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
-from gripperd.model.memory import begin, dahl
+from gripperd.model.memory import begin
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real
-from gripperd.model.slip import called_up
+from gripperd.model.slip import held, turned
 from gripperd.model.track import Array, Track
 
 
@@ -63,7 +61,7 @@ class CoulombFriction(InMuscle):
 
         With a distance, at rest, all that the travel before left.
         """
-        share = 1.0 if self.distance > 0 else called_up(at.rate, self.slip)
+        share = held(at.rate, self.distance, self.slip)
         return -at.direction * self.magnitude * share
 
     def rest(self) -> Array:
@@ -72,7 +70,5 @@ class CoulombFriction(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take off the friction of each moment. [N]."""
-        share = np.broadcast_to(called_up(track.rate, self.slip), value.shape)
-        way, direction = track.contraction, track.direction
-        sign = dahl(way, direction, np.asarray(share), self.distance, memory)
+        sign = turned(track, self.distance, self.slip, memory)
         return value - self.magnitude * sign

@@ -74,6 +74,7 @@ def candidates(
     unseen: dict[str, str] = {}
     present = {effect.name for effect in problem.model.effects}
     travels = any(course.direction.any() for course in problem.courses)
+    has_time = not is_table(problem.courses)
     for name, kind in library.items():
         if name in present:
             continue
@@ -84,6 +85,7 @@ def candidates(
             Candidate(name, effect)
             for effect in forms(kind)
             if present.issuperset(_bases(effect))
+            and (has_time or not effect.rest().size)
             and (travels or kind.travelling.isdisjoint(words(effect).values()))
         ]
     found += _wrong_constants(library, problem)

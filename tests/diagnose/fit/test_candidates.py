@@ -1,5 +1,6 @@
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import (
@@ -12,17 +13,19 @@ from gripperd.diagnose.fit.candidates import (
     side,
 )
 from gripperd.diagnose.fit.design import limits
+from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.creep import Creep
+from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset, Zero
 from gripperd.model.effect import Signal, Stage
 from gripperd.model.parameter import in_use, parameters
-from tests.diagnose.small import MODEL, recording, without
+from tests.diagnose.small import MODEL, nothing, recording, tabled, without
 
 MEASURED = frozenset({"time", "current", "pressure", "contraction", "force"})
 
@@ -218,6 +221,24 @@ def test_a_pressure_that_creeps_is_no_candidate_where_nothing_travels(
     held = replace(blank, courses=tuple(still))
     listed, _ = candidates({"creep": Creep}, held, MEASURED)
     assert {one.kind[1] for one in listed if one.name == "creep"} == {"pull", "rubber"}
+
+
+def test_no_form_that_remembers_is_a_candidate_in_a_table() -> None:
+    """Points that were numbered have no way over which a friction could turn round."""
+    there = np.linspace(0.0, 0.2, 20)
+    away = {"contraction": np.concatenate((there, there[::-1]))}
+    told = tabled(nothing)
+    runs = tuple(replace(run, columns={**run.columns, **away}) for run in told.runs)
+    problem = problem_of(replace(told, runs=runs), MODEL, {})
+    friction = {"pressure_friction": PressureFriction}
+    listed, _ = candidates(friction, problem, MEASURED - {"current"})
+    tried = {
+        one.effect.distance
+        for one in listed
+        if isinstance(one.effect, PressureFriction)
+    }
+    assert is_table(problem.courses)
+    assert tried == {0.0}
 
 
 def test_what_acts_on_a_signal_that_nothing_shows_says_so(blank: Problem) -> None:
