@@ -125,7 +125,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
     """
     problem, best = found.problem, told.best
     null = found.null.fit
-    margin = _margin(null.cost - best.fit.cost, best.excess)
+    margin = _margin(null.cost - best.fit.cost, best.excess, best.fit.samples)
     places = []
     for index, place in enumerate(told.places):
         rivals = sorted(place.rivals, key=lambda one: -one.evidence)
@@ -203,9 +203,10 @@ def _challenged(
     ]
 
 
-def _margin(closed: float, excess: float) -> float:
+def _margin(closed: float, excess: float, samples: int) -> float:
     """By how much less a rival may have: of what was closed, where misfit is left."""
-    return SURE + 0.5 * max(min(MISSHAPED * closed, excess), 0.0)
+    misfit = excess - np.sqrt(2 * samples)
+    return SURE + 0.5 * float(max(min(MISSHAPED * closed, misfit), 0.0))
 
 
 def _sounder(problem: Problem, best: Rival, champion: Rival) -> bool:
@@ -229,8 +230,8 @@ def _stands_in(
         sum(one.fit.misfits[signal] for signal in signals)
         for one in (best, rival, without, found.null)
     )
-    excess = own - sum(best.fit.counts[signal] for signal in signals)
-    margin = SURE + _margin(null - own, excess)
+    samples = sum(best.fit.counts[signal] for signal in signals)
+    margin = SURE + _margin(null - own, own - samples, samples)
     return 0.5 * (other - own) < margin + 0.5 * ALIKE * (bare - own)
 
 

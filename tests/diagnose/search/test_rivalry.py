@@ -203,6 +203,24 @@ def test_a_rival_stands_in_that_leaves_a_twentieth_where_its_prior_asks_less(
     assert told.equivalents == ((("twin",) if kept else ()),)
 
 
+@pytest.mark.parametrize(("deviations", "kept"), [(0.9, False), (3.0, True)])
+def test_no_misfit_within_chance_excuses_a_rival(
+    problem: Problem, deviations: float, *, kept: bool
+) -> None:
+    """It is 15 nat behind, less than half of chi² above its mean."""
+    found = _found(problem, RUB)
+    best, samples = found.best, found.best.fit.samples
+    more = deviations * (2 * samples) ** 0.5 - best.excess
+    force = best.fit.misfits[Signal.FORCE] + more
+    misfits = {**best.fit.misfits, Signal.FORCE: force}
+    best = replace(best, fit=replace(best.fit, misfits=misfits))
+    cost = best.fit.cost + 2 * 15.0
+    rival = Rival((TWIN,), replace(best.fit, cost=cost))
+    assert 0.5 * deviations * (2 * samples) ** 0.5 > 15.0
+    told = standing_in(found, Contest(best, (Place(found.null, (rival,)),)))
+    assert told.equivalents == ((("twin",) if kept else ()),)
+
+
 def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
     # Friction shows in the force alone, and a valve that is off in the pressure alone.
     short = 0.016 * 4.4 / 500
