@@ -121,7 +121,7 @@ class PreslidingHysteresis(InMuscle):
     @property
     def is_misnamed(self) -> bool:
         """Something snaps at one length: a fold of the bladder, a cable, a stop."""
-        return self.hysteron is Hysteron.RELAY and self._relays.snap(NARROW)
+        return self.hysteron is Hysteron.RELAY and self._relays.snaps(NARROW)
 
     @property
     def forgetful(self) -> Self:

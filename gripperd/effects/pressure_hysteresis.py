@@ -103,7 +103,7 @@ class PressureHysteresis(InMuscle):
     @property
     def is_misnamed(self) -> bool:
         """Something snaps at one pressure: a fold of the bladder, a cable, a stop."""
-        return self.hysteron is Hysteron.RELAY and self._relays.snap(NARROW)
+        return self.hysteron is Hysteron.RELAY and self._relays.snaps(NARROW)
 
     @property
     def forgetful(self) -> Self:

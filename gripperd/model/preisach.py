@@ -57,7 +57,7 @@ class Relays:
     """Share that is left of the curve they would follow without a loop, from where the
     signal is 0: none for their memory alone. [0..1]"""
 
-    def snap(self, narrowest: float) -> bool:
+    def snaps(self, narrowest: float) -> bool:
         """Whether they would be narrower and closer yet, if they might: one switch.
 
         What they stand for lets go at one place and catches at another, as a fold of a

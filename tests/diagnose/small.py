@@ -97,6 +97,16 @@ def restless(hidden: Hidden) -> Hidden:
     return lambda moment: hidden(moment) + 25.0 * np.sin(moment.time)
 
 
+def switched(signal: Array, middles: Array, half: float) -> Array:
+    """Share of relays that are up, each so far around its own middle."""
+    up = signal[0] > middles
+    shares = []
+    for value in signal:
+        up = np.where(up, value > middles - half, value > middles + half)
+        shares.append(up.mean())
+    return np.array(shares)
+
+
 def moments() -> dict[str, Moment]:
     """The campaign: holds, isometric and isobaric sweeps, and one repeat."""
     plans: dict[str, tuple[float, Array, Array]] = {}

@@ -7,7 +7,7 @@ from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
-from tests.diagnose.small import MODEL, Moment, recording
+from tests.diagnose.small import MODEL, Moment, recording, switched
 
 
 @pytest.mark.parametrize(
@@ -27,16 +27,6 @@ def test_what_pulls_near_rest_length_alone_is_no_rubber(
     assert told.verdict is verdict
 
 
-def _switched(signal: Array, middles: Array, half: float) -> Array:
-    """Share of relays that are up, each switched by itself."""
-    up = signal[0] > middles
-    shares = []
-    for value in signal:
-        up = np.where(up, value > middles - half, value > middles + half)
-        shares.append(up.mean())
-    return np.array(shares)
-
-
 @pytest.mark.parametrize(
     ("spread", "verdict"), [(0.0, Verdict.UNEXPLAINED), (0.05, Verdict.NAMED)]
 )
@@ -47,7 +37,7 @@ def test_what_snaps_at_one_length_is_no_memory_of_strands(
     middles = np.random.default_rng(3).normal(0.075, spread, 400)
 
     def folding(moment: Moment) -> Array:
-        return 60.0 * _switched(moment.contraction, middles, 0.015)
+        return 60.0 * switched(moment.contraction, middles, 0.015)
 
     memory = {"presliding_hysteresis": EFFECTS["presliding_hysteresis"]}
     told = diagnose(recording(folding), MODEL, {}, memory)
@@ -65,7 +55,7 @@ def test_what_snaps_at_one_pressure_is_no_memory_of_a_bladder(
     middles = np.random.default_rng(3).normal(250e3, spread, 400)
 
     def folding(moment: Moment) -> Array:
-        return 60.0 * _switched(moment.pressure, middles, 30e3)
+        return 60.0 * switched(moment.pressure, middles, 30e3)
 
     memory = {"pressure_hysteresis": EFFECTS["pressure_hysteresis"]}
     told = diagnose(recording(folding), MODEL, {}, memory)

@@ -204,7 +204,7 @@ def _challenged(
 
 
 def _margin(closed: float, excess: float, samples: int) -> float:
-    """By how much less a rival may have: of what was closed, where misfit is left."""
+    """By how much less a rival may have: more, if more than noise is left."""
     misfit = excess - np.sqrt(2 * samples)
     return SURE + 0.5 * float(max(min(MISSHAPED * closed, misfit), 0.0))
 

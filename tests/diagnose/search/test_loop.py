@@ -22,7 +22,7 @@ from gripperd.model.effect import Effect, Signal
 from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
 from tests.diagnose.fitted import ended, fitted
-from tests.diagnose.small import MODEL, Hidden, Moment, recording
+from tests.diagnose.small import MODEL, Hidden, Moment, recording, switched
 
 RELAY = Hysteron.RELAY
 OF_WAY = PreslidingHysteresis(hysteron=RELAY, relays=10.0, curve=1.0)
@@ -32,12 +32,7 @@ OF_PRESSURE = PressureHysteresis(hysteron=RELAY, relays=10.0, centre=350e3, curv
 def _bank(signal: Array, middle: float, spread: float, half: float) -> Array:
     """Share of a bank of relays that is up, each switched by itself."""
     middles = np.random.default_rng(3).normal(middle, spread, 400)
-    up = signal[0] > middles
-    shares = []
-    for value in signal:
-        up = np.where(up, value > middles - half, value > middles + half)
-        shares.append(up.mean())
-    return np.array(shares)
+    return switched(signal, middles, half)
 
 
 def bank_of_way(half: float) -> Hidden:
