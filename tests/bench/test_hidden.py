@@ -97,6 +97,7 @@ def test_effects_of_the_moment_alone_are_left_to_the_table(chain: Chain) -> None
     effects = tuple(filter(acts_in_muscle, (typical(kind.name) for kind in kinds)))
     assert {effect.name for effect in lively(effects, chain.muscle)} == {
         "coulomb_friction",
+        "pressure_friction",
         "temperature_stiffness",
         "presliding_hysteresis",
         "pressure_hysteresis",
