@@ -18,6 +18,7 @@ from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.belief import least
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
@@ -59,6 +60,9 @@ def without_refuted(
         if not without:
             break
         rest = max(without, key=lambda one: one.evidence)
+        # Beside what is gone it may have been believed for less than it needs alone.
+        if rest.evidence - found.null.evidence <= least(found.problem, rest.candidates):
+            rest = found.null
         best = contest(replace(found, best=rest), listed)
     return best
 

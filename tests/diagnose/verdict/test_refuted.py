@@ -66,20 +66,39 @@ def test_misfit_that_nothing_reaches_is_noise_to_it(
     assert refuted(parts, parts.test, inflated, blank_told) == ()
 
 
-def test_what_stands_beside_a_wrong_name_stays_told(told: Diagnosis) -> None:
-    """A threshold is hidden; nothing rubs."""
-    right, parts = told.contest.best, told.split
+def _with_friction(told: Diagnosis) -> Contest:
+    """The threshold that is hidden, and beside it a friction that is not."""
+    right = told.contest.best
     rubs = Candidate("coulomb_friction", CoulombFriction(magnitude=40.0))
     point = right.fit.point.with_effect(CoulombFriction(magnitude=40.0))
     both = Rival((*right.candidates, rubs), replace(right.fit, point=point))
     places = tuple(map(Place, without_each(told.found.problem, both)))
-    wrong = Contest(both, places)
+    return Contest(both, places)
+
+
+def test_what_stands_beside_a_wrong_name_stays_told(told: Diagnosis) -> None:
+    parts, wrong = told.split, _with_friction(told)
     assert "coulomb_friction" in refuted(parts, parts.test, told.found, wrong)
-    rest = without_refuted(parts, parts.test, told.found, wrong, (*both.candidates,))
+    listed = wrong.best.candidates
+    rest = without_refuted(parts, parts.test, told.found, wrong, listed)
     assert rest.best.names == ("threshold_pressure",)
     threshold = rest.best.fit.point.effects[-1]
     assert isinstance(threshold, ThresholdPressure)
     assert threshold.pressure == pytest.approx(25e3, rel=0.1)
+
+
+@pytest.mark.parametrize(("gain", "stays"), [(14.0, True), (12.0, False)])
+def test_what_is_left_must_gain_what_it_needs_alone(
+    told: Diagnosis, gain: float, *, stays: bool
+) -> None:
+    parts, wrong, null = told.split, _with_friction(told), told.found.null
+    (_, place) = wrong.places
+    assert place.without.names == ("threshold_pressure",)
+    more = place.without.evidence - null.evidence - gain
+    null = replace(null, fit=replace(null.fit, cost=null.fit.cost - 2 * more))
+    found = replace(told.found, null=null)
+    rest = without_refuted(parts, parts.test, found, wrong, wrong.best.candidates)
+    assert rest.best.names == (("threshold_pressure",) if stays else ())
 
 
 def test_a_name_alone_is_not_taken_away(
