@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,7 +42,8 @@ def sweeps(table: Table) -> Sweeps:
     _require_one_muscle(table)
     _require_few_runs(table)
     runs = tuple(_runs(table))
-    ahead, restarted = _on_one_clock(runs)
+    ordered = _in_order(runs)
+    ahead, restarted = _on_one_clock(ordered)
     fresh = [np.diff(run.columns["time"], prepend=-np.inf) > 0.0 for run in ahead]
     return Sweeps(
         tuple(
@@ -53,7 +55,7 @@ def sweeps(table: Table) -> Sweeps:
             for run, rows in zip(ahead, fresh, strict=True)
             if not rows.all()
         ),
-        tuple(_remarks(table, restarted)),
+        tuple(_remarks(table, restarted, is_sorted=ordered is not runs)),
     )
 
 
@@ -128,6 +130,20 @@ def _require_forward(table: Table, run: Run, start: int) -> None:
         raise InputError(detail)
 
 
+def _in_order(runs: tuple[Run, ...]) -> tuple[Run, ...]:
+    """Put runs in order of time, where one clock tells it: none began within another.
+
+    A file may be sorted by the names of its runs, and what came first matters.
+    """
+    ordered = tuple(sorted(runs, key=lambda run: float(run.columns["time"][0])))
+    one_clock = all(
+        before.columns["time"][-1] < after.columns["time"][0]
+        for before, after in pairwise(ordered)
+    )
+    is_other = any(one is not own for one, own in zip(ordered, runs, strict=True))
+    return ordered if one_clock and is_other else runs
+
+
 def _on_one_clock(runs: tuple[Run, ...]) -> tuple[tuple[Run, ...], tuple[str, ...]]:
     """Let time rise over the runs too; also name the runs that had to be moved."""
     moved: list[Run] = []
@@ -143,10 +159,16 @@ def _on_one_clock(runs: tuple[Run, ...]) -> tuple[tuple[Run, ...], tuple[str, ..
     return tuple(moved), tuple(restarted)
 
 
-def _remarks(table: Table, restarted: tuple[str, ...]) -> Iterator[str]:
+def _remarks(
+    table: Table, restarted: tuple[str, ...], *, is_sorted: bool
+) -> Iterator[str]:
     for name, values in table.numbers.items():
         if values.size and np.isnan(values).all():
             yield f"Column {name} is empty: not measured."
+    if is_sorted:
+        yield (
+            f"The runs stand in another order than {TIME.name}; they were put in order."
+        )
     if restarted:
         yield (
             f"{TIME.name} starts anew in {len(restarted)} runs (first "

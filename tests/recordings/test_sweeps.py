@@ -21,6 +21,19 @@ def test_runs_keep_their_order_and_their_time(write: Write) -> None:
     assert recording.remarks == ()
 
 
+@pytest.mark.parametrize("start", [-5.0, -10.0])
+def test_runs_in_another_order_than_their_clock_are_put_in_order(
+    write: Write, start: float
+) -> None:
+    """As in a file that was sorted by name."""
+    recording = read_recording(write(_two(start=start)))
+    assert [run.name for run in recording.runs] == ["b", "a"]
+    assert recording.runs[0].columns["time"][0] == start
+    assert recording.runs[1].columns["time"][0] == 0.0
+    (remark,) = recording.remarks
+    assert remark == "The runs stand in another order than t_s; they were put in order."
+
+
 def test_a_clock_that_starts_anew_is_put_behind_the_run_before(write: Write) -> None:
     recording = read_recording(write(_two(start=0.0)))
     time = recording.runs[1].columns["time"]
