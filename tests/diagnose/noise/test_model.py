@@ -42,6 +42,18 @@ def test_many_short_pieces_tell_of_their_noise(size: int) -> None:
     assert found.correlation == 0.0
 
 
+@pytest.mark.parametrize("correlation", [0.0, 0.3, 0.6])
+@pytest.mark.parametrize("size", [9, 12, 16])
+def test_pieces_of_a_dozen_samples_tell_of_its_memory(
+    size: int, correlation: float
+) -> None:
+    slope = 40.0 * np.arange(size)
+    noises = [noise(size, 2.5, seed, memory=correlation) for seed in range(600)]
+    found = quick_noise([slope + one for one in noises])
+    assert found.std == pytest.approx(2.5, rel=0.1)
+    assert found.correlation == pytest.approx(correlation, abs=0.1)
+
+
 def test_pieces_of_four_samples_tell_a_little_less() -> None:
     found = quick_noise([noise(4, 2.5, seed) for seed in range(600)])
     assert 0.7 * 2.5 < found.std < 2.5
