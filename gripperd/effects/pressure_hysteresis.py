@@ -102,7 +102,7 @@ class PressureHysteresis(InMuscle):
 
     @property
     def is_misnamed(self) -> bool:
-        """Something snaps at one pressure: a fold of the bladder, a cable, a stop."""
+        """Something snaps at one pressure: a fold of the bladder, a hose that kinks."""
         return self.hysteron is Hysteron.RELAY and self._relays.snaps(NARROW)
 
     @property
