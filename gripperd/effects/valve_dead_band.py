@@ -45,8 +45,8 @@ class ValveDeadBand(InValve):
     regulator of two valves that open and shut wakes once the error is as large as the
     width, and lets both be shut once it is small [4]_: it need not turn round to rest.
 
-    It begins where the pressure is. Predictions of a steady pressure take the middle of
-    the band.
+    It begins where the pressure is, and at rest. Predictions of a steady pressure take
+    the middle of the band.
     """
 
     name: ClassVar[str] = "valve_dead_band"
@@ -102,9 +102,10 @@ class ValveDeadBand(InValve):
 
     def _begun(self, value: Array, pressure: Array) -> tuple[float, float, float]:
         """Memory of a spool at the first pressure that was measured."""
-        second = 0.0
         if self.spool is Spool.TRAILS:
-            second = pressure[0]
-        elif self.spool is Spool.STICKS:
-            second = slides(value, pressure, self.width)
-        return pressure[0], second, np.nan
+            return pressure[0], pressure[0], np.nan
+        if self.spool is Spool.STICKS:
+            return pressure[0], slides(value, pressure, self.width), np.nan
+        # It rests, so within its band; the reading may be noise further out.
+        away = np.clip(pressure[0] - value[0], -self.width, self.width)
+        return value[0] + away, 0.0, np.nan

@@ -93,3 +93,12 @@ def test_one_that_wakes_begins_where_the_pressure_is(muscle: Muscle) -> None:
     for off in (-3e3, 3e3):
         track = track_of(muscle, command=asked, pressure=asked + off)
         assert (effect.along(asked, track, effect.rest()) == asked + off).all()
+
+
+def test_one_that_wakes_begins_no_further_away_than_its_band(muscle: Muscle) -> None:
+    asked = np.full(30, 50e3)
+    effect = ValveDeadBand(width=WIDTH, spool=Spool.WAKES)
+    for off in (-2 * WIDTH, 2 * WIDTH):
+        track = track_of(muscle, command=asked, step=0.0, pressure=asked + off)
+        found = effect.along(asked, track, effect.rest())
+        assert np.abs(found - asked).max() <= WIDTH

@@ -33,12 +33,13 @@ def test_differences_between_runs_are_no_noise() -> None:
     assert quick_noise(pieces).std == pytest.approx(2.5, rel=0.05)
 
 
-@pytest.mark.parametrize("size", [5, 6, 7, 8])
+@pytest.mark.parametrize("size", [4, 5, 6, 7, 8])
 def test_many_short_pieces_tell_of_their_noise(size: int) -> None:
     slope = 40.0 * np.arange(size)
     pieces = [slope + noise(size, 2.5, seed) + seed for seed in range(600)]
     found = quick_noise(pieces)
-    assert found.std == pytest.approx(2.5, rel=0.07)
+    # 600 pieces of four, without their means and slopes, leave a standard error of 2 %.
+    assert found.std == pytest.approx(2.5, rel=0.035)
     assert found.correlation == 0.0
 
 
@@ -52,11 +53,6 @@ def test_pieces_of_a_dozen_samples_tell_of_its_memory(
     found = quick_noise([slope + one for one in noises])
     assert found.std == pytest.approx(2.5, rel=0.1)
     assert found.correlation == pytest.approx(correlation, abs=0.1)
-
-
-def test_pieces_of_four_samples_tell_a_little_less() -> None:
-    found = quick_noise([noise(4, 2.5, seed) for seed in range(600)])
-    assert 0.7 * 2.5 < found.std < 2.5
 
 
 def test_short_pieces_say_nothing_of_the_spread_beside_a_long_one() -> None:
