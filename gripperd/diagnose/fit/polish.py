@@ -30,7 +30,9 @@ DAMPED = 0.01
 RELATIVE = 2e-5
 """Fall of the cost, of itself, below which another round is not worth it. [-]"""
 CONVERGED = 0.3
-"""Fall of the cost below which another round is not worth it."""
+"""Fall of the cost, promised and kept, below which another round is not worth it."""
+LEAST_KEPT = 0.25
+"""Share of a promised fall of the cost below which a step led too far. [-]"""
 LEAST_ON = 0.01
 """Least of a shape whose 0 is another law, of its largest. [-]"""
 SHAPE_STEP = 0.04
@@ -103,7 +105,7 @@ def polished(problem: Problem, point: Point) -> Polished:
     low, high = bounds(problem, point, coordinates)
     cost, white = _cost(problem, point, coordinates)
     covariance = information = np.empty((0, 0))
-    damping = 0.0
+    damping = promised = 0.0
     for _ in range(ROUNDS):
         columns = slopes(problem, point, coordinates)
         information = columns.T @ columns
@@ -117,19 +119,35 @@ def polished(problem: Problem, point: Point) -> Polished:
             aim = bounded(damped, pull + damped @ here, low, high, here)
             there = _moved(problem, point, coordinates, aim)
             new_cost, new_white = _cost(problem, there, coordinates)
+            promised = _promised(matrix, pull, aim - here)
+            kept = cost - new_cost > LEAST_KEPT * promised
+            eased = damping / 10 if damping > DAMPED else 0.0
+            damping = eased if kept else max(10 * damping, DAMPED)
             if new_cost < cost:
                 point, cost, white = there, new_cost, new_white
-                damping = damping / 10 if damping > DAMPED else 0.0
                 break
-            damping = max(10 * damping, DAMPED)
-        if start - cost < max(CONVERGED, RELATIVE * cost):
+        little = max(CONVERGED, RELATIVE * cost)
+        if cost == start or max(start - cost, promised) < little:
             break
+    misfits, counts = _by_signal(problem, white)
+    return Polished(point, cost, misfits, counts, coordinates, covariance, information)
+
+
+def _promised(matrix: Array, pull: Array, way: Array) -> float:
+    """Fall of the cost along a way, were all linear. [-]."""
+    return float(2 * pull @ way - way @ matrix @ way)
+
+
+def _by_signal(
+    problem: Problem, white: Sequence[Array]
+) -> tuple[dict[Signal, float], dict[Signal, int]]:
+    """Chi² and samples of each signal."""
     misfits = dict.fromkeys(problem.signals, 0.0)
     counts = dict.fromkeys(problem.signals, 0)
     for block, left in zip(problem.blocks, white, strict=True):
         misfits[block.signal] += float(left @ left)
         counts[block.signal] += left.size
-    return Polished(point, cost, misfits, counts, coordinates, covariance, information)
+    return misfits, counts
 
 
 def bounds(
