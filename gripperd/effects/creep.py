@@ -47,14 +47,16 @@ class Creep(InMuscle):
 
     .. math:: F = F_0 - c \sum_{i=0}^{2} a_i (u - u_i), \quad
               \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
-              u = p \left[A(0) + l (A(h) - A(0))\right], \quad c = 1
+              u = p \left[A(0) + l (A(h) - A(0))\right] - 5 b F_s(h), \quad c = 1
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when it pulls as at rest length. A bladder that passes the pressure on late has
+    when it pulls as at rest length. Of what the stretch of the rubber takes of it by
+    eq. (5), b has a share: 1/5 when that creeps as the pull does, more when it creeps
+    more, below 0 when it relaxes. A bladder that passes the pressure on late has
     ``u = p`` and pulls at the length of now, ``c = A(h)``, so that a travel under a
-    settled pressure calls nothing up. One that relaxes under its own stretch has
-    ``u = 5 F_s(h)``, of eq. (5). Once settled it adds nothing. A record that begins
-    under a load goes on from a wait under it, which may have been long.
+    settled pressure calls nothing up. One that relaxes under its own stretch alone has
+    ``u = 5 F_s(h)``. Once settled it adds nothing. A record that begins under a load
+    goes on from a wait under it, which may have been long.
     """
 
     name: ClassVar[str] = "creep"
@@ -73,7 +75,7 @@ class Creep(InMuscle):
     )
 
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
-        dict.fromkeys((Creeping.PRESSURE, Creeping.RUBBER), ("leverage",))
+        dict.fromkeys((Creeping.PRESSURE, Creeping.RUBBER), ("leverage", "stretch"))
     )
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
         {Creeping.RUBBER: "rubber_elasticity"}
@@ -95,6 +97,9 @@ class Creep(InMuscle):
     pressure: 1 as the pressure comes, ``exp(-t / 6 tau)`` after a wait, 0 where all has
     settled. The others have waited as long. [-]"""
 
+    stretch: float = shape(unit=None, starts=(0.0,), low=-4.0, high=4.0)
+    """How much of the stretch of the rubber creeps beside the pull, b. [-]"""
+
     of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
     """What comes late."""
 
@@ -104,11 +109,13 @@ class Creep(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take from the pull what has not come yet."""
-        load = self._load(track)
+        pull = self._load(track)
+        beside = self.stretch if self.of is Creeping.PULL else 0.0
+        load = pull - beside * _stretched(track) if beside else pull
         late = np.zeros_like(load)
         if np.isnan(memory).all() and load.size:
             left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
-            memory[:] = (1 - left) * load[0]
+            memory[:] = load[0] - left * pull[0]
         for index, share in enumerate((self.fast, self.medium, self.slow)):
             if share:
                 time = self.time * SPACING**index
@@ -119,13 +126,17 @@ class Creep(InMuscle):
         return value - late
 
     def _load(self, track: Track) -> Array:
-        """What creeps goes after. [N], of a pressure [Pa]."""
-        muscle = track.muscle
+        """What creeps goes after, but for the stretch beside. [N], or pressure [Pa]."""
         if self.of is Creeping.PRESSURE:
             return track.pressure
         if self.of is Creeping.RUBBER:
-            ratio = track.diameter_ratio
-            return np.asarray(RUBBER * muscle.elastic_force(track.contraction, ratio))
-        rest = muscle.pull_area(0.0)
+            return _stretched(track)
+        rest = track.muscle.pull_area(0.0)
         area = rest + self.leverage * (track.pull_area - rest)
         return np.asarray(track.pressure * area)
+
+
+def _stretched(track: Track) -> Array:
+    """Force of the rubber by eq. (5), as large as the pull. [N]."""
+    ratio = track.diameter_ratio
+    return np.asarray(RUBBER * track.muscle.elastic_force(track.contraction, ratio))

@@ -120,6 +120,7 @@ def test_a_version_is_shown_as_a_model_file(run: Run, tmp_path: Path) -> None:
         "magnitude_N": FRICTION,
         "distance": 0.0,
         "slip_per_s": 0.0,
+        "seated_kPa": 0.0,
     }
     assert document["provenance"]["recording"]["name"] == "cycles.csv"
 
@@ -140,6 +141,11 @@ def test_versions_are_compared(run: Run) -> None:
         },
         {
             "path": "effects.coulomb_friction.slip_per_s",
+            "before": None,
+            "after": 0.0,
+        },
+        {
+            "path": "effects.coulomb_friction.seated_kPa",
             "before": None,
             "after": 0.0,
         },

@@ -21,6 +21,33 @@ def test_the_loop_has_the_same_width_everywhere(
     assert ideal - contracting == pytest.approx(15.0)
 
 
+@pytest.mark.parametrize(
+    ("pressure", "share"),
+    [(-2e3, 0.0), (0.0, 0.0), (5e3, 0.25), (2e4, 1.0), (4e5, 1.0)],
+)
+def test_loose_strands_rub_as_they_press(
+    muscle: Muscle, pressure: float, share: float
+) -> None:
+    friction = CoulombFriction(15.0, seated=20e3)
+    static = StaticMuscle(muscle, (friction,))
+    contracting = static.force(pressure, 0.1, Direction.CONTRACTING)
+    extending = static.force(pressure, 0.1, Direction.EXTENDING)
+    assert extending - contracting == pytest.approx(30.0 * share)
+    track = track_of(muscle, pressure=np.array([pressure]))
+    force = friction.along(np.zeros(1), track, friction.rest())
+    assert force.tolist() == pytest.approx([-15.0 * share])
+
+
+@pytest.mark.parametrize("pressure", [5e3, 1.9e4, 2.1e4, 4e5])
+def test_a_force_with_loose_strands_has_its_pressure(
+    muscle: Muscle, pressure: float
+) -> None:
+    static = StaticMuscle(muscle, (CoulombFriction(15.0, seated=20e3),))
+    for way in Direction:
+        force = static.force(pressure, 0.05, way)
+        assert static.pressure(force, 0.05, way) == pytest.approx(pressure)
+
+
 def test_the_force_jumps_where_the_travel_turns(muscle: Muscle) -> None:
     friction = CoulombFriction(15.0)
     track = track_of(muscle, direction=np.array([1.0, 1.0, -1.0, -1.0, 1.0]))

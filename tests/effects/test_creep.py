@@ -48,27 +48,43 @@ def test_a_record_under_pressure_goes_on_where_the_wait_before_it_ended(
     assert found == pytest.approx(expected, rel=1e-6)
 
 
-def test_a_bladder_relaxes_under_its_own_stretch(muscle: Muscle) -> None:
-    """By a tenth at once: its rubber pulls back by 5 times the shares more."""
-    step = np.diff(TIME, prepend=0.0)
-    shortened = np.where(TIME > 0, 0.1, 0.0)
-    effect = replace(CREEP, of=Creeping.RUBBER)
-    forces = [
-        effect.along(
-            np.zeros_like(TIME),
-            track_of(muscle, time=TIME, step=step, pressure=bar, contraction=shortened),
-            effect.rest(),
-        )
-        for bar in (1e5, 4e5)
-    ]
-    # Eq. (5) of the paper, at the constants of the muscle.
+SHORTENED = np.where(TIME > 0, 0.1, 0.0)
+
+
+def of_the_rubber(muscle: Muscle) -> float:
+    """Eq. (5) of the paper a tenth shorter, at the constants of the muscle. [N]."""
     cosine = 0.9 * np.cos(muscle.braid_angle)
     wider = np.sqrt(1 - cosine**2) / np.sin(muscle.braid_angle)
     hoop = 0.81 / np.tan(muscle.braid_angle) ** 2 * (1 - 1 / wider)
     modulus = muscle.elastic_modulus * muscle.wall_thickness * np.pi * muscle.diameter
-    expected = left_of(5 * modulus * (hoop + 0.1 * wider))[1:]
+    return float(modulus * (hoop + 0.1 * wider))
+
+
+def shortened(muscle: Muscle, effect: Creep, pressure: float) -> Array:
+    """What it adds to the pull by a tenth shorter at once."""
+    step = np.diff(TIME, prepend=0.0)
+    track = track_of(
+        muscle, time=TIME, step=step, pressure=pressure, contraction=SHORTENED
+    )
+    return effect.along(np.zeros_like(TIME), track, effect.rest())
+
+
+def test_a_bladder_relaxes_under_its_own_stretch(muscle: Muscle) -> None:
+    """Its rubber pulls back by 5 times the shares more."""
+    effect = replace(CREEP, of=Creeping.RUBBER)
+    forces = [shortened(muscle, effect, bar) for bar in (1e5, 4e5)]
+    expected = left_of(5 * of_the_rubber(muscle))[1:]
     assert -forces[0][1:] == pytest.approx(expected, rel=1e-6)
     np.testing.assert_array_equal(forces[0], forces[1])
+
+
+def test_what_rubber_takes_of_the_pull_may_come_late_with_it(muscle: Muscle) -> None:
+    """With a fifth of the stretch, by the shares of what eq. (5) takes."""
+    effect = replace(CREEP, stretch=0.2)
+    expected = left_of(of_the_rubber(muscle))[1:]
+    assert shortened(muscle, effect, 0.0)[1:] == pytest.approx(expected, rel=1e-6)
+    both = shortened(muscle, effect, 4e5) - shortened(muscle, CREEP, 4e5)
+    assert both[1:] == pytest.approx(expected, rel=1e-6)
 
 
 def test_what_is_late_of_a_pressure_pulls_at_the_length_of_now(muscle: Muscle) -> None:

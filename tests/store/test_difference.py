@@ -45,6 +45,7 @@ def test_constants_tolerances_and_effects_are_told_in_the_units_of_the_file(
         Change("effects.creep.time_s", None, 5.0),
         Change("effects.creep.leverage", None, 1.0),
         Change("effects.creep.fresh", None, 0.0),
+        Change("effects.creep.stretch", None, 0.0),
         Change("effects.creep.of", None, "pull"),
     )
 
