@@ -1,5 +1,7 @@
 """What fits an effect only where nothing is that bears its name."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -61,3 +63,22 @@ def test_what_snaps_at_one_pressure_is_no_memory_of_a_bladder(
     told = diagnose(recording(folding), MODEL, {}, memory)
     assert [entry.name for entry in told.named] == ["pressure_hysteresis"]
     assert told.verdict is verdict
+
+
+@pytest.mark.parametrize(
+    ("law", "name"),
+    [
+        (lambda p: -np.expm1(-p / 12e3), "coulomb_friction"),
+        (lambda p: (p / 500e3) ** 0.7, "pressure_friction"),
+    ],
+)
+def test_friction_that_lets_go_of_a_vented_muscle_does_not_grow_with_pressure(
+    law: Callable[[Array], Array], name: str
+) -> None:
+    def rubbing(moment: Moment) -> Array:
+        return -40.0 * moment.direction * law(moment.pressure)
+
+    frictions = {one: EFFECTS[one] for one in ("coulomb_friction", "pressure_friction")}
+    told = diagnose(recording(rubbing), MODEL, {}, frictions)
+    assert [entry.name for entry in told.named] == [name]
+    assert told.verdict is Verdict.NAMED
