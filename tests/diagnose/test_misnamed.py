@@ -4,12 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
-from tests.diagnose.small import MODEL, Moment, recording, switched
+from tests.diagnose.small import MODEL, STEP, Moment, recording, switched
 
 
 @pytest.mark.parametrize(
@@ -82,3 +83,24 @@ def test_friction_that_lets_go_of_a_vented_muscle_does_not_grow_with_pressure(
     told = diagnose(recording(rubbing), MODEL, {}, frictions)
     assert [entry.name for entry in told.named] == [name]
     assert told.verdict is Verdict.NAMED
+
+
+def test_stretch_that_creeps_beside_the_pull_is_no_memory_of_strands() -> None:
+    """Chains of dashpots, of the pressure and of the stretch, of 2 s to a minute."""
+
+    def creeping(moment: Moment) -> Array:
+        pressed, stretched = moment.pressure / 500e3, moment.contraction / 0.2
+        load = 30.0 * pressed - 25.0 * stretched
+        return -sum((_late(load, time) for time in (2.0, 12.0, 60.0)), 0.0 * load)
+
+    library = {one: EFFECTS[one] for one in ("creep", "presliding_hysteresis")}
+    told = diagnose(recording(creeping), MODEL, {}, library)
+    assert [entry.name for entry in told.named] == ["creep"]
+    assert told.verdict is Verdict.NAMED
+
+
+def _late(load: Array, time: float) -> Array:
+    """What has not come yet by a time constant. [N]."""
+    kept = np.exp(-STEP / time)
+    load = load - load[0]
+    return np.asarray(load - lfilter([1 - kept], [1.0, -kept], load))
