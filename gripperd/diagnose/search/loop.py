@@ -1,4 +1,4 @@
-"""Whether the readings bear out the loop of what is called a hysteresis."""
+"""Whether the readings bear out the memory of what is named for it."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -7,6 +7,7 @@ from gripperd.diagnose.fit.candidates import Candidate, side
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Effect, Signal
 
 SEEN = 13.0
 """By how much likelier the readings are with a loop than with its curve alone. [nat]"""
@@ -70,7 +71,10 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
 
 
 def is_but_curve(rival: Rival, other: Rival) -> bool:
-    """Tell whether what has a loop is hardly likelier than what has none in its place.
+    """Tell whether a memory is hardly likelier than what has none in its place.
+
+    A loop, or a force that comes late: a creep that is slower than any sweep is a curve
+    of pressure and length.
 
     Parameters
     ----------
@@ -79,6 +83,13 @@ def is_but_curve(rival: Rival, other: Rival) -> bool:
     """
     own = [one for one in rival.fit.point.effects if one.name not in other.names]
     new = [one for one in other.fit.point.effects if one.name not in rival.names]
-    has_loop = any(one.forgetful is not one for one in own)
-    goes_one_way = not any(one.turns or one.rest().size for one in new)
-    return has_loop and goes_one_way and rival.evidence - other.evidence < SEEN
+    if any(one.turns or one.rest().size for one in new):
+        return False
+    loops = any(one.forgetful is not one for one in own)
+    late = any(_comes_late(one) for one in own) and not any(one.timed for one in new)
+    return (loops or late) and rival.evidence - other.evidence < SEEN
+
+
+def _comes_late(effect: Effect) -> bool:
+    late = bool(effect.rest().size) and not (effect.turns or effect.timed)
+    return late and effect.signal is Signal.FORCE

@@ -14,7 +14,9 @@ from gripperd.diagnose.search.rivalry import contest
 from gripperd.diagnose.search.stepwise import additions, search
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
 from gripperd.effects.nonlinear_elasticity import NonlinearElasticity
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.effects.pressure_hysteresis import PressureHysteresis
@@ -137,6 +139,8 @@ def test_relays_are_neither_added_nor_challenge_far_above_the_noise(
 CURVE = Candidate("nonlinear_elasticity", NonlinearElasticity(saturation=10.0))
 RELAYS = Candidate("presliding_hysteresis", OF_WAY)
 RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+LATE = Candidate("creep", Creep(slow=0.02, time=12.0))
+DRIFT = Candidate("force_sensor_drift", ForceSensorDrift(rate=0.01))
 SPRINGS = Candidate("presliding_hysteresis", PreslidingHysteresis(near=10.0))
 
 
@@ -147,10 +151,15 @@ SPRINGS = Candidate("presliding_hysteresis", PreslidingHysteresis(near=10.0))
         (RELAYS, CURVE, 14.0, False),
         (RELAYS, RUB, 12.0, False),
         (SPRINGS, CURVE, 12.0, False),
+        (LATE, CURVE, 12.0, True),
+        (LATE, CURVE, 14.0, False),
+        (LATE, RUB, 12.0, False),
+        (LATE, DRIFT, 12.0, False),
+        (DRIFT, CURVE, 12.0, False),
         (CURVE, RELAYS, 12.0, False),
     ],
 )
-def test_a_loop_must_be_likelier_than_what_has_none(
+def test_a_memory_must_be_likelier_than_what_has_none(
     own: Candidate, other: Candidate, lead: float, *, is_curve: bool
 ) -> None:
     problem = problem_of(recording(bank_of_way(0.02)), MODEL, {})
