@@ -170,7 +170,6 @@ def test_steps_show_creep() -> None:
     assert "creep" in _names(found), _said(found)
 
 
-@pytest.mark.xfail(reason="ends at 1.6 N; the cause is not known", strict=True)
 def test_creep_closes_the_steps() -> None:
     found = _diagnosis("pam10_steps", "pam10")
     # Without it 1.9 N are left on the run that took no part.
