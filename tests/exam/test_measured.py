@@ -172,7 +172,7 @@ def test_steps_show_creep() -> None:
 
 def test_creep_closes_the_steps() -> None:
     found = _diagnosis("pam10_steps", "pam10")
-    # Without it 1.9 N are left on the run that took no part.
+    # Without it 1.35 N are left on the run that took no part.
     assert found.gaps[Signal.FORCE].after < 1.2
 
 
