@@ -4,6 +4,8 @@ References
 ----------
 .. [1] D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear
        parameters", J. SIAM 11(2), 431-441, 1963.
+.. [2] J. Nocedal, S. J. Wright, "Numerical Optimization", 2nd ed., Springer, 2006,
+       algorithm 4.1: a step that keeps less than a quarter leads too far.
 """
 
 from collections.abc import Mapping, Sequence
@@ -32,7 +34,7 @@ RELATIVE = 2e-5
 CONVERGED = 0.3
 """Fall of the cost, promised and kept, below which another round is not worth it."""
 LEAST_KEPT = 0.25
-"""Share of a promised fall of the cost below which a step led too far. [-]"""
+"""Share of a promised fall of the cost below which a step led too far [2]_. [-]"""
 LEAST_ON = 0.01
 """Least of a shape whose 0 is another law, of its largest. [-]"""
 SHAPE_STEP = 0.04
