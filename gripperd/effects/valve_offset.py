@@ -41,7 +41,8 @@ class ValveOffset(InValve):
 
     All of it, or only what lies above the zero that the regulator suppresses; there
     and below, it vents and sucks nothing. A pilot that opens by and by brings the
-    offset by :math:`b (1 - e^{-p_0 / p_f})`, see :attr:`fade`.
+    offset by :math:`b (k + (1 - k) (1 - e^{-p_0 / p_f}))`, see :attr:`fade` and
+    :attr:`kept`.
     """
 
     name: ClassVar[str] = "valve_offset"
@@ -51,7 +52,7 @@ class ValveOffset(InValve):
         " fits the measured pressure"
     )
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
-        {Zero.REGULATED: ("fade",)}
+        {Zero.REGULATED: ("fade", "kept")}
     )
     confused_with: ClassVar[tuple[str, ...]] = (
         "pressure_sensor_bias", "ambient_pressure",
@@ -64,6 +65,8 @@ class ValveOffset(InValve):
         unit="kPa", starts=(0.0, 10e3), low=0.0, high=30e3, switches=True
     )
     """Pressure over which it comes where the zero is suppressed; 0 for all at once."""
+    kept: float = shape(unit=None, starts=(0.0, 0.5), low=0.0, high=0.9, switches=True)
+    """Share of it that is there all the same where the zero is suppressed. [-]"""
     zero: Zero = choice(Zero)  # noqa: RUF009  (declares)
     """What it does when it is asked for nothing."""
 
@@ -85,7 +88,7 @@ class ValveOffset(InValve):
             awake = -np.expm1(-np.maximum(above, 0.0) / self.fade)
         elif self.offset > 0:
             awake = np.heaviside(above - ZERO * (high - low), 0.0)
-        shifted = pressure + awake * self.offset
+        shifted = pressure + (self.kept + (1.0 - self.kept) * awake) * self.offset
         if self.offset < 0:
             shifted = np.maximum(shifted, np.minimum(pressure, low))
         return shifted

@@ -75,9 +75,26 @@ def test_a_pilot_that_opens_by_and_by_brings_the_offset(
     assert effect.settled(asked, (0.0, 500e3)) == pytest.approx(found)
 
 
+@pytest.mark.parametrize("fade", [0.0, 10e3])
+def test_a_line_may_keep_part_of_it_where_nothing_is_asked(
+    muscle: Muscle, fade: float
+) -> None:
+    effect = ValveOffset(20e3, fade=fade, kept=0.6, zero=Zero.SUPPRESSED)
+    asked = np.array([0.0, 10e3, 400e3])
+    found = effect.along(asked, track_of(muscle, command=asked), effect.rest())
+    come = 1 - 1 / np.e if fade else 1.0
+    assert found == pytest.approx([12e3, 10e3 + 12e3 + 8e3 * come, 420e3])
+    assert effect.settled(asked, SPAN) == pytest.approx(found)
+
+
 def _begins_softly(command: Array, offset: float) -> Array:
     """An offset that sets in over some percent of the range, as nothing is asked."""
     return np.asarray(command + offset * np.tanh(command / 15e3))
+
+
+def _grows(command: Array, offset: float) -> Array:
+    """An offset of which a third comes within the first tenth of the range."""
+    return np.asarray(command + offset * (1 - 0.35 / (1 + (command / 20e3) ** 2)))
 
 
 def _stays(command: Array, offset: float) -> Array:
@@ -93,6 +110,13 @@ def test_an_offset_is_named_where_a_vented_muscle_shows_none(seed: int) -> None:
     assert isinstance(effect, ValveOffset)
     assert effect.zero is Zero.SUPPRESSED
     assert effect.offset == pytest.approx(15e3, abs=0.5e3)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_an_offset_that_grows_with_the_command_is_no_bow(seed: int) -> None:
+    told = diagnose(stuck(_grows, 25e3, seed), MODEL, {}, VALVES)
+    assert told.verdict is Verdict.NAMED
+    assert [one.name for one in told.named] == ["valve_offset"]
 
 
 def test_one_that_it_shows_is_regulated() -> None:
