@@ -10,11 +10,25 @@ from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, added
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.belief import LEAST, LEAST_PLAIN, LEAST_WRONG, simplest
+from gripperd.diagnose.search.belief import (
+    LEAST,
+    LEAST_PLAIN,
+    LEAST_SLOW,
+    LEAST_WRONG,
+    least,
+    simplest,
+)
 from gripperd.diagnose.setup import problem_of
+from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.fatigue import Fatigue
+from gripperd.effects.first_cycle import FirstCycle
+from gripperd.effects.force_sensor_drift import ForceSensorDrift
 from gripperd.effects.force_sensor_gain import ForceSensorGain
+from gripperd.effects.leak import Leak
+from gripperd.effects.temperature_stiffness import TemperatureStiffness
 from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.model.effect import Effect
 from tests.diagnose.small import MODEL, recording
 
 CHANCE = 1.0
@@ -56,9 +70,27 @@ def _names(problem: Problem, null: Rival, *rivals: Rival) -> tuple[str, ...]:
 def test_each_must_gain_what_others_could_feign(
     problem: Problem, null: Rival, bore: Candidate
 ) -> None:
-    for one, least in ((bore, LEAST_WRONG), (GAIN, LEAST_PLAIN), (THRESHOLD, LEAST)):
-        assert _names(problem, null, _with(null, least - 0.1, one)) == ()
-        assert _names(problem, null, _with(null, least + 0.1, one)) == (one.name,)
+    for one, needed in ((bore, LEAST_WRONG), (GAIN, LEAST_PLAIN), (THRESHOLD, LEAST)):
+        assert _names(problem, null, _with(null, needed - 0.1, one)) == ()
+        assert _names(problem, null, _with(null, needed + 0.1, one)) == (one.name,)
+
+
+@pytest.mark.parametrize(
+    ("effect", "most"),
+    [
+        (ForceSensorDrift(rate=0.01), LEAST_SLOW),
+        (ChannelDelay(delay=0.05), LEAST_SLOW),
+        (TemperatureStiffness(modulus=0.01), LEAST_SLOW),
+        (Fatigue(loss=1e-3), LEAST),
+        (FirstCycle(gain=0.05), LEAST),
+        (Leak(rate=0.01), LEAST),
+    ],
+    ids=lambda value: getattr(value, "name", None),
+)
+def test_what_a_sound_sensor_may_do_slowly_must_gain_more(
+    problem: Problem, effect: Effect, most: float
+) -> None:
+    assert least(problem, [Candidate(effect.name, effect)]) == most
 
 
 def test_what_gains_too_little_holds_nothing_back(

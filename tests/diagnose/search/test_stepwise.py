@@ -78,14 +78,11 @@ def test_a_first_effect_is_believed_at_odds_of_a_million(
     assert not names or 13.8 < gain < 20.0
 
 
-@pytest.mark.parametrize(
-    ("trait", "value"),
-    [("timed", True), ("needs", ThresholdPressure.needs | {"temperature"})],
-)
 def test_what_a_drift_could_imitate_must_gain_more(
-    monkeypatch: pytest.MonkeyPatch, trait: str, value: object
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(ThresholdPressure, trait, value)
+    needs = ThresholdPressure.needs | {"temperature"}
+    monkeypatch.setattr(ThresholdPressure, "needs", needs)
     assert searched(threshold(2.5)).best.names == ()
     assert searched(threshold(3.0)).best.names == ("threshold_pressure",)
 
