@@ -41,7 +41,8 @@ def picture(offer: Offer) -> Picture:
     panels[0].set_ylabel(up)
     unit = f" {column.unit}".rstrip()
     caption = (
-        f"What it adds to the prediction{_held(drawn[0])}. Full colour:"
+        "What it adds to the prediction with the constants as they were fitted"
+        f"{_held(drawn[0])}. Full colour:"
         f" {top:.3g}{unit}; orange adds, blue takes away, empty is outside the fence."
     )
     over = " and ".join(axis.quantity for axis in drawn[0].axes)

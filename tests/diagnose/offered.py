@@ -24,6 +24,7 @@ def bump() -> Offer:
         usual=np.array([200e3, 0.1]),
         spread=np.array([100e3, 0.05]),
         ends=np.array([[0.0, 0.0], [400e3, 0.2]]),
+        held={BY_QUANTITY["temperature"]: (294.15, 295.15)},
         wander=1.0,
     )
     return Offer(correction, Worth(20.0, 5.0, 375.0, 20.0, 0.75))

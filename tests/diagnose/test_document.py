@@ -105,9 +105,13 @@ def test_a_correction_is_described_in_the_units_of_its_keys(creep: Diagnosis) ->
     (one,) = told["corrections"]
     assert (one["signal"], one["unit"], one["amplitude"]) == ("force_N", "N", 40.0)
     assert one["lengthscales"] == {"pressure_kPa": 50.0, "contraction": None}
+    # What varied reaches 2 % of its range further; what did not, no further at all.
     assert one["fence"]["ranges"] == {
-        "pressure_kPa": [0.0, 400.0], "contraction": [0.0, 0.2],
-    }  # fmt: skip
+        "pressure_kPa": [-8.0, 408.0],
+        "contraction": [-0.004, 0.204],
+        "temperature_C": [21.0, 22.0],
+    }
+    assert one["adds_to"].endswith("constants as they were fitted")
     assert one["heldout"]["rmse_without"] == 20.0
     assert one["heldout"]["rmse_with"] == 5.0
 
@@ -121,6 +125,9 @@ def test_a_correction_s_table_follows_it_and_ends_at_the_fence(
     values = dict(zip(table["pressure_kPa"], table["values"], strict=True))
     assert values[200.0] == pytest.approx(30.0, abs=0.1)
     assert values[0.0] is None
+    stds = dict(zip(table["pressure_kPa"], table["std"], strict=True))
+    assert stds[200.0] == pytest.approx(0.1, abs=0.01)
+    assert stds[0.0] is None
     # Two places to a length of 50 kPa.
     assert table["pressure_kPa"][1] == 25.0
 

@@ -2,6 +2,8 @@
 
 from typing import TypeAlias
 
+import numpy as np
+
 from gripperd.diagnose.correction.offer import FENCE, Correction, Offer
 from gripperd.diagnose.correction.table import CorrectionMap, maps
 from gripperd.diagnose.readings.columns import BY_QUANTITY, Column
@@ -17,12 +19,15 @@ RULE = (
     f" {FENCE:g} of the prior"
 )
 
+ADDS_TO = "the prediction of the model with its constants as they were fitted"
+
 
 def correction_document(offer: Offer) -> Document:
     """Write a correction in the units of its keys; a length of null is no dependence.
 
-    What to add to a prediction stands in ``tables``, null outside the fence. It is a
-    smooth curve through what was measured, no physics.
+    What to add to the prediction of the model with its constants as they were fitted
+    stands in ``tables``, null outside the fence. It is a smooth curve through what was
+    measured, no physics.
     """
     found, worth = offer.correction, offer.worth
     column = BY_QUANTITY[found.signal.value]
@@ -30,6 +35,7 @@ def correction_document(offer: Offer) -> Document:
         "signal": column.name,
         "unit": column.unit,
         "kernel": "squared exponential",
+        "adds_to": ADDS_TO,
         "amplitude": number(found.amplitude / column.scale),
         "wander": number(found.wander / column.scale),
         "lengthscales": {
@@ -49,10 +55,9 @@ def correction_document(offer: Offer) -> Document:
 
 
 def _fence(found: Correction) -> Document:
-    ranges = {
-        one.name: _numbers(one.written(ends))
-        for one, ends in zip(found.regressors, found.ends.T, strict=True)
-    }
+    ends = dict(zip(found.regressors, found.reach.T, strict=True))
+    ends |= {one: np.array(held) for one, held in found.held.items()}
+    ranges = {one.name: _numbers(one.written(end)) for one, end in ends.items()}
     return {"rule": RULE, "ranges": ranges}
 
 
@@ -66,11 +71,13 @@ def _table(drawn: CorrectionMap, column: Column) -> Document:
             one.name: number((value - one.zero) / one.scale)
             for one, value in drawn.held.items()
         },
-        "values": [
-            _numbers(row) if row.ndim else number(float(row))
-            for row in column.written(drawn.values)
-        ],
+        "values": _rows(column.written(drawn.values)),
+        "std": _rows(drawn.stds / column.scale),
     }
+
+
+def _rows(values: Array) -> list[object]:
+    return [_numbers(row) if row.ndim else number(float(row)) for row in values]
 
 
 def _numbers(values: Array) -> list[float | None]:

@@ -4,7 +4,8 @@ References
 ----------
 .. [1] C. E. Rasmussen, C. K. I. Williams, "Gaussian Processes for Machine Learning",
        MIT Press, 2006: eqs. (5.8) and (5.9) for the marginal likelihood and its slope,
-       section 5.1 for a length per quantity, section 8.3.4 for projected processes.
+       section 5.1 for a length per quantity, section 8.3.4 for projected processes,
+       section 3.4.3 for roots of what has no eigenvalue below 1.
 """
 
 from dataclasses import dataclass
@@ -146,9 +147,12 @@ class Process:
         """
         prior = kernel.between(centres, centres)
         prior[np.diag_indices_from(prior)] += JITTER * kernel.amplitude**2
-        after = cholesky(prior + features.T @ features, lower=True)
+        before = cholesky(prior, lower=True)
+        # Their plain sum is indefinite by rounding where data tell far more than this.
+        told = solve_triangular(before, features.T, lower=True)
+        after = before @ cholesky(np.eye(len(told)) + told @ told.T, lower=True)
         weights = cho_solve((after, True), features.T @ outcome)
-        return cls(kernel, centres, weights, cholesky(prior, lower=True), after)
+        return cls(kernel, centres, weights, before, after)
 
     def mean(self, inputs: Array) -> Array:
         """Expected value, shape ``(n,)``."""

@@ -5,7 +5,7 @@ that were searched and judged on those that were not. What wanders inside a swee
 does not come again at the same place is told apart from it: it would be no correction.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,7 +22,7 @@ from gripperd.diagnose.readings.columns import Column
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.regressors import REGRESSORS, inputs, varied
+from gripperd.diagnose.residuals.regressors import REGRESSORS, inputs, ranges, varied
 from gripperd.diagnose.verdict.gap import STRETCH, by_signal
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -50,6 +50,9 @@ class Correction:
     """Unit of each regressor inside the process, shape ``(k,)``."""
     ends: Array
     """Lowest and highest of each regressor, shape ``(2, k)``."""
+    held: Mapping[Column, tuple[float, float]]
+    """Lowest and highest of what was measured and is no regressor: it did not vary, or
+    was not measured everywhere."""
     wander: float
     """Standard deviation of what does not come again at the same place."""
 
@@ -68,6 +71,17 @@ class Correction:
             )
         )
 
+    @property
+    def reach(self) -> Array:
+        """Ends of the fence along each regressor, shape ``(2, k)``."""
+        margin = MARGIN * np.ptp(self.ends, axis=0)
+        return np.asarray(self.ends + np.array([[-1.0], [1.0]]) * margin)
+
+    def std(self, regressors: Array) -> Array:
+        """Standard deviation of the correction as the data leave it, shape ``(n,)``."""
+        doubt = np.maximum(self.process.doubt(self._scaled(regressors)), 0.0)
+        return np.asarray(self.amplitude * np.sqrt(doubt))
+
     def at(self, regressors: Array) -> Array:
         """Give the correction, NaN outside the fence.
 
@@ -76,12 +90,14 @@ class Correction:
         regressors
             In their order, shape ``(n, k)``. [SI]
         """
-        low, high = self.ends
-        margin = MARGIN * (high - low)
-        seen = (regressors >= low - margin) & (regressors <= high + margin)
-        scaled = (regressors - self.usual) / self.spread
+        low, high = self.reach
+        seen = (regressors >= low) & (regressors <= high)
+        scaled = self._scaled(regressors)
         known = seen.all(1) & (self.process.doubt(scaled) <= FENCE)
         return np.where(known, self.process.mean(scaled), np.nan)
+
+    def _scaled(self, regressors: Array) -> Array:
+        return np.asarray((regressors - self.usual) / self.spread)
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +183,7 @@ def _learnt(
         usual=usual,
         spread=spread,
         ends=np.array([measured.min(0), measured.max(0)]),
+        held=ranges(train, [x for x in REGRESSORS[signal] if x not in regressors]),
         wander=wander,
     )
 

@@ -25,6 +25,8 @@ class CorrectionMap:
     """Values of each, rising."""
     values: Array
     """In the shape of the places, NaN outside the fence."""
+    stds: Array
+    """Their standard deviations, likewise."""
     held: Mapping[Column, float]
     """Where the other quantities that matter are held."""
 
@@ -64,13 +66,15 @@ def _map(
         grid[one] if one in grid else np.full(shape, chosen.get(one, usual[one]))
         for one in correction.regressors
     ]
-    values = correction.at(np.column_stack([column.ravel() for column in columns]))
+    regressors = np.column_stack([column.ravel() for column in columns])
+    values = correction.at(regressors)
+    stds = np.where(np.isfinite(values), correction.std(regressors), np.nan)
     held = {
         one: chosen.get(one, usual[one])
         for one, length in lengths.items()
         if length is not None and one not in axes
     }
-    return CorrectionMap(axes, places, values.reshape(shape), held)
+    return CorrectionMap(axes, places, values.reshape(shape), stds.reshape(shape), held)
 
 
 def _places(low: float, high: float, length: float | None, fewest: int) -> Array:

@@ -47,6 +47,19 @@ def varied(
     return tuple(one for one, kept in zip(listed, good, strict=True) if kept)
 
 
+def ranges(
+    problem: Problem, listed: Sequence[Column]
+) -> dict[Column, tuple[float, float]]:
+    """Lowest and highest of each quantity that was measured anywhere. [SI]."""
+    values = zip(listed, inputs(problem, listed).T, strict=True) if listed else ()
+    known = {one: found[np.isfinite(found)] for one, found in values}
+    return {
+        one: (float(found.min()), float(found.max()))
+        for one, found in known.items()
+        if found.size
+    }
+
+
 def inputs(problem: Problem, listed: Sequence[Column]) -> Array:
     """Quantities of every sample to explain, shape ``(n, k)``. [SI]."""
     return np.concatenate(

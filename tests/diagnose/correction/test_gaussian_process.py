@@ -118,6 +118,16 @@ def test_the_doubt_is_the_posterior_variance_over_the_prior() -> None:
     assert _process().doubt(there) == pytest.approx(expected, abs=1e-4)
 
 
+def test_data_may_tell_far_more_than_is_known_before() -> None:
+    """A noise of a millionth of the function, and readings side by side."""
+    twice = np.concatenate([INPUTS, INPUTS + 1e-3])
+    outcome, noise = _wave(twice), 2e-6
+    features = KERNEL.between(twice, twice) / noise
+    process = Process.given(KERNEL, twice, features, outcome / noise)
+    assert process.mean(INPUTS) == pytest.approx(_wave(INPUTS), abs=0.01)
+    assert process.doubt(INPUTS) == pytest.approx(0.0, abs=1e-4)
+
+
 def test_far_from_data_nothing_is_known() -> None:
     far = np.array([[40.0, 0.0]])
     assert _process().doubt(far) == pytest.approx([1.0])

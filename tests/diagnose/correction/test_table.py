@@ -27,6 +27,7 @@ def _moving(lengths: Array) -> Correction:
         usual=np.array([200e3, 0.1, 0.0]),
         spread=np.array([200e3, 0.1, 1.0]),
         ends=np.array([[0.0, 0.0, -1.0], [400e3, 0.2, 1.0]]),
+        held={},
         wander=1.0,
     )
 
@@ -51,6 +52,15 @@ def test_the_fence_is_where_half_of_the_variance_is_left() -> None:
     inside = drawn.places[0][np.isfinite(drawn.values)]
     reach = 50e3 * np.sqrt(np.log(2))
     assert np.abs(inside - 200e3).max() == pytest.approx(reach, abs=7e3)
+
+
+def test_each_value_has_its_standard_deviation() -> None:
+    (drawn,) = maps(bump().correction, 60)
+    inside = np.isfinite(drawn.values)
+    assert np.isnan(drawn.stds[~inside]).all()
+    # The same reading again: a prior of 40 N, known by exp(-(d/l)²) of its variance.
+    known = np.exp(-np.square((drawn.places[0][inside] - 200e3) / 50e3))
+    assert drawn.stds[inside] == pytest.approx(40.0 * np.sqrt(1 - known), abs=0.2)
 
 
 def test_where_the_direction_matters_both_ways_are_drawn() -> None:

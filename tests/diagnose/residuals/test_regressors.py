@@ -3,9 +3,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.regressors import REGRESSORS, inputs, level, varied
+from gripperd.diagnose.residuals.regressors import (
+    REGRESSORS,
+    inputs,
+    level,
+    ranges,
+    varied,
+)
 from gripperd.model.effect import Signal
 
 
@@ -29,6 +36,18 @@ def test_what_was_not_varied_is_no_regressor(force: Problem) -> None:
     parts = split(replace(force, courses=still))
     found = varied(parts.train, parts.test, REGRESSORS[Signal.FORCE])
     assert "direction" not in {one.quantity for one in found}
+
+
+def test_what_was_measured_in_some_sweeps_alone_has_a_range(force: Problem) -> None:
+    first, *rest = force.courses
+    warm = np.linspace(293.0, 296.0, first.time.size)
+    one = replace(first, measured={**first.measured, "temperature": warm})
+    listed = [BY_QUANTITY[name] for name in ("temperature", "supply")]
+    found = ranges(replace(force, courses=(one, *rest)), listed)
+    ends = found[BY_QUANTITY["temperature"]]
+    assert ends == pytest.approx((293.0, 296.0), abs=0.2)
+    assert BY_QUANTITY["supply"] not in found
+    assert ranges(force, []) == {}
 
 
 def test_there_is_a_row_for_every_sample_to_explain(force: Problem) -> None:
