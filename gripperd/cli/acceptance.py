@@ -29,12 +29,12 @@ def accept(found: Diagnosis, model: ModelFile, config: Path | None) -> list[str]
     parent = parent_of(model, config)
     better = improvement(model, found, __version__)
     versions, number, made = parent.versions, parent.number, better.provenance
-    version = versions.same(better.model, parent=number, provenance=made)
-    word = "kept" if version is None else "already kept"
-    if version is None:
-        version = versions.add(
-            better.model, parent=number, created_at=datetime.now(UTC), provenance=made
-        )
+    known = versions.same(better.model, parent=number, provenance=made)
+    word = "kept" if known is None else "already kept"
+    now = datetime.now(UTC)
+    version = versions.add(
+        better.model, parent=number, created_at=now, provenance=made, once=True
+    )
     lines = [f"{word} as {version.name}: {version.model.source}"]
     if made.gap is not None:
         lines.append(_gap(made.gap))

@@ -53,7 +53,7 @@ def accept(
         raise Refused(message, code="model-changed", hints=hints)
     model, made = read_improvement(place)
     version = versions.add(
-        model, parent=diagnosis.version, created_at=now, provenance=made
+        model, parent=diagnosis.version, created_at=now, provenance=made, once=True
     )
     kept.put(replace(diagnosis, kept_as=version.name))
     return version

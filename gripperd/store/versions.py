@@ -77,13 +77,15 @@ class Versions:
         parent: int,
         created_at: datetime,
         provenance: Provenance,
+        once: bool = False,
     ) -> Version:
         """Keep a model as the next version; the active one stays active.
 
         Returns
         -------
         The version as its file has it, which is what every later reader gets. A number
-        that the unit of its key cannot say exactly differs in the last bit.
+        that the unit of its key cannot say exactly differs in the last bit. Once means
+        that it is the one of :meth:`same`, where that is there.
 
         Raises
         ------
@@ -95,6 +97,10 @@ class Versions:
         """
         self.get(parent)
         with self._changing():
+            # Under the lock: two that judge one recording at once keep one.
+            known = self.same(model, parent=parent, provenance=provenance)
+            if once and known is not None:
+                return known
             number = max(self._numbers(), default=0) + 1
             lineage = Lineage(
                 version=number,

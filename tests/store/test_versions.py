@@ -1,4 +1,5 @@
 import multiprocessing
+import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -277,6 +278,31 @@ def test_two_writers_at_once_lose_no_version(
     shelf = Versions(tmp_path, base).all()
     assert [version.number for version in shelf.versions] == [0, 1, 2, 3, 4, 5, 6]
     assert shelf.complaints == ()
+
+
+def _add_once(folder: Path, provenance: Provenance, barrier: float) -> int:
+    base = load_model(shipped("models/reference.yaml"))
+    versions = Versions(folder, base)
+    model = with_creep(base)
+    time.sleep(max(0.0, barrier - time.time()))
+    return versions.add(
+        model, parent=0, created_at=NOW, provenance=provenance, once=True
+    ).number
+
+
+def test_two_that_judge_one_recording_at_once_keep_one_version(
+    tmp_path: Path, provenance: Provenance
+) -> None:
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(2, context) as pool:
+        list(pool.map(abs, range(2)))
+        for round_ in range(10):
+            folder, barrier = tmp_path / str(round_), time.time() + 0.05
+            adding = [
+                pool.submit(_add_once, folder, provenance, barrier) for _ in range(2)
+            ]
+            assert [each.result() for each in adding] == [1, 1]
+            assert not (folder / "2.yaml").exists()
 
 
 def test_the_version_before_is_told_without_going_back(
