@@ -63,9 +63,7 @@ def diagnose(  # noqa: PLR0913  (its options)
             _write_json(found, asked, as_json)
             written.append(as_json if told else "stdout")
         if told:
-            from gripperd.cli.verdict import show
-
-            show(found)
+            told = _shown(found)
         if report is not None:
             _write_report(found, asked, report, told=told)
             written.append(str(report))
@@ -122,6 +120,20 @@ def _found(recording: Path, model: "ModelFile", seed: int) -> "Diagnosis":
             # The diagnosis knows no files: it names the recording.
             said = str(broken).removeprefix(f"{read.name}: ")
             raise InputError(f"{recording}: {said}", key=broken.key) from None
+
+
+def _shown(found: "Diagnosis") -> bool:
+    """Print the verdict; False where nobody reads on, as behind ``| head``.
+
+    Then what is to be written is written all the same.
+    """
+    from gripperd.cli.verdict import show
+
+    try:
+        show(found)
+    except SystemExit:
+        return False
+    return True
 
 
 def _write_json(found: "Diagnosis", model: "ModelFile", place: str) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -12,7 +13,7 @@ from gripperd.demo.files import write_rig
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.document import document
 from gripperd.store import Versions
-from tests.daemon import gripperd, settings_file
+from tests.daemon import PATIENCE, START, gripperd, settings_file
 from tests.demonstration import SEED, STEP, example
 
 
@@ -111,6 +112,30 @@ def test_nothing_named_is_nothing_applied(done: Done) -> None:
     assert ended.returncode == 1
     assert "error: nothing to apply, the verdict is none" in ended.stderr
     assert ended.stdout.startswith("none  ")
+
+
+def test_what_is_to_be_written_is_written_though_nobody_reads_on(done: Done) -> None:
+    """As behind ``| head -1``: the other end of the pipe is closed at once."""
+    page, kept = done.folder / "unread.html", done.folder / "unread"
+    asked = (
+        "diagnose", done.at("rig.csv"), "--model", done.at("model.yaml"),
+        "--report", str(page), "--apply",
+    )  # fmt: skip
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "w") as unread:
+        ended = subprocess.run(
+            [*START, *asked],
+            stdout=unread,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=PATIENCE,
+            check=False,
+            env=os.environ | {"XDG_STATE_HOME": str(kept)},
+        )
+    assert "Traceback" not in ended.stderr
+    assert page.exists()
+    assert list(kept.rglob("1.yaml"))
 
 
 def test_a_model_of_the_same_name_is_not_mixed_with_the_configured(done: Done) -> None:
