@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from unicodedata import category
 
 import numpy as np
 
@@ -19,6 +20,8 @@ LATEST = 1e12
 """Seconds; more is no time, such as milliseconds since 1970."""
 MOST_RUNS = 2000
 """A column with more names is a counter."""
+UNSEEN = frozenset({"Cc", "Cf"})
+"""Categories of characters that move the cursor, turn a line round, or do not show."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +39,8 @@ def sweeps(table: Table) -> Sweeps:
     Raises
     ------
     InputError
-        A run has no name or is torn apart, time is missing or runs backwards, or
-        there is more than one muscle.
+        A run has no name, or one that cannot be shown, or is torn apart; time is
+        missing or runs backwards; or there is more than one muscle.
     """
     _require_one_muscle(table)
     _require_few_runs(table)
@@ -100,6 +103,12 @@ def _runs(table: Table) -> Iterator[Run]:
         name = words.values[words.codes[start]]
         if not name:
             detail = f"{table.place(int(start))}: {RUN} is empty"
+            raise InputError(detail)
+        if any(category(one) in UNSEEN for one in name):
+            detail = (
+                f"{table.place(int(start))}: run {printable(name)} has characters that "
+                "move the cursor, or that nobody sees"
+            )
             raise InputError(detail)
         if name in seen:
             detail = (

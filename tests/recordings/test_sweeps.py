@@ -81,6 +81,29 @@ def test_a_sample_without_run_is_refused(
     assert complaint(write(columns)) == "rig.csv:6: run is empty"
 
 
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("red\x1b[31m", r"red\x1b[31m"),
+        ("a\x07", r"a\x07"),
+        ("two\nlines", r"two\nlines"),
+        ("csv.\u202egpj", r"csv.\u202egpj"),
+    ],
+)
+def test_a_name_that_moves_the_cursor_is_refused(
+    write: Write, complaint: Complaint, name: str, shown: str
+) -> None:
+    message = complaint(write(good() | {"run": [f'"{name}"'] * 30}))
+    assert message.startswith("rig.csv:2: run ")
+    assert f"{shown} has characters that move the cursor" in message
+
+
+def test_a_name_may_have_any_script(write: Write) -> None:
+    names = ["等尺 0,10 °C"] * 30
+    (run,) = read_recording(write(good() | {"run": [f'"{one}"' for one in names]})).runs
+    assert run.name == names[0]
+
+
 def test_a_run_torn_apart_is_refused(write: Write, complaint: Complaint) -> None:
     columns = _two()
     columns["run"][45] = "a"
