@@ -9,6 +9,9 @@ from pydantic import Field, ValidationInfo, field_validator
 
 from gripperd.config.section import Kilopascals, Milliamperes, Rising, Section
 
+LEAST_SPAN = 1.0
+"""Between the ends of a regulator's line: a sixteenth of the usual 4 to 20 mA. [mA]"""
+
 
 class MuscleSection(Section):
     """Constants of the muscle, within what could be made."""
@@ -36,6 +39,18 @@ class ValveSection(Section):
 
     current_mA: Rising[Milliamperes]
     pressure_kPa: Rising[Kilopascals]
+
+    @field_validator("current_mA")
+    @classmethod
+    def _tell_apart(cls, ends: tuple[float, float]) -> tuple[float, float]:
+        low, high = ends
+        if high - low < LEAST_SPAN:
+            message = (
+                f"from {low:g} to {high:g} mA it is less than {LEAST_SPAN:g} mA, which"
+                " no output could divide; is it in A?"
+            )
+            raise ValueError(message)
+        return ends
 
 
 class GripperSection(Section):

@@ -165,6 +165,12 @@ def test_a_model_file_may_lack_its_gripper_only(write: Write, refusal: Refusal) 
             "valve.current_mA: the low end, 20 mA, is not below the high end, 4 mA",
         ),
         (
+            "[4, 20]",
+            "[0.004, 0.02]",
+            "valve.current_mA: from 0.004 to 0.02 mA it is less than 1 mA, which no"
+            " output could divide; is it in A?",
+        ),
+        (
             "[5, 900]",
             "[5, 5]",
             "valve.pressure_kPa: the low end, 5 kPa, is not below the high end, 5 kPa",
