@@ -163,6 +163,18 @@ def test_readings_that_know_nothing_of_their_neighbours_are_no_measurement() -> 
     assert refused.value.key == "force_N"
 
 
+def test_a_pressure_that_is_held_throughout_is_no_disorder() -> None:
+    draws = np.random.default_rng(5)
+    held = replace(
+        recording(), runs=tuple(r for r in recording().runs if r.name == "d")
+    )
+    noisy = altered(
+        held, ("d",), "pressure", lambda p: 300e3 + draws.normal(0.0, 900.0, p.size)
+    )
+    problem = problem_of(without(noisy, "current"), MODEL, {})
+    assert problem.signals == (Signal.FORCE,)
+
+
 def _beside(name: str, made: Callable[[Run], Array]) -> Recording:
     """The small recording with one more column."""
     told = recording()

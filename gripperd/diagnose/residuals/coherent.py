@@ -11,8 +11,8 @@ from gripperd.model.track import Array
 from gripperd.units import KILO, MILLI
 
 SCATTER = 0.1
-"""Noise over the range of a column from which it is none: of all that were measured,
-tables of a chart apart, 0.03 at most. [-]"""
+"""Noise over the range of a column, from zero at least, from which it is none: of all
+that were measured, tables of a chart apart, 0.03 at most. [-]"""
 ALIKE = 0.15
 """Share by which two columns of one thing may differ: more is no calibration. [-]"""
 USUAL = 0.99
@@ -45,7 +45,9 @@ def _check_scatter(problem: Problem, name: str) -> None:
         seen = _read(problem, signal.value)
         noise = problem.noises.get(signal)
         spread = float(np.ptp(seen)) if seen.size else 0.0
-        if noise is None or not spread or noise.std <= SCATTER * spread:
+        # What is held at one value throughout has no other range than its noise.
+        reach = max(spread, float(np.max(np.abs(seen), initial=0.0)))
+        if noise is None or not spread or noise.std <= SCATTER * reach:
             continue
         column = BY_QUANTITY[signal.value]
         message = (
