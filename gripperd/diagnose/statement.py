@@ -10,6 +10,7 @@ from gripperd.diagnose.search.dead_band import DEAD_BAND
 from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed, listed
+from gripperd.diagnose.verdict.gap import REACHED
 from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, plain, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import recalibrated
@@ -20,6 +21,9 @@ LITTLE = 0.8
 """Share of a gap that better constants leave, above which they need no mention. [-]"""
 PLACES = {"time": 0, "pressure": 0, "contraction": 3}
 """Decimal places of a region, in the unit of the file."""
+
+UNJUDGED = ("force", "opening", "grip")
+"""What is told of when it was measured and no prediction of it could be compared."""
 
 
 def summary(diagnosis: Diagnosis) -> str:
@@ -44,8 +48,7 @@ def summary(diagnosis: Diagnosis) -> str:
                 f" it{_still_open(diagnosis)}."
             )
         case Verdict.NONE:
-            within = _within(diagnosis)
-            return f"Nothing is missing: {within}what is left is noise{gap}."
+            return _nothing(diagnosis)
         case Verdict.UNUSABLE:
             said = "; ".join(map(contradicted, diagnosis.recording.contradictions))
             return (
@@ -143,6 +146,30 @@ def _told(entries: Sequence[Named]) -> str:
 def _tight(diagnosis: Diagnosis) -> str:
     tight = diagnosis.explained.looser
     return ", and tolerances tighter than its parts keep" if tight else ""
+
+
+def _nothing(diagnosis: Diagnosis) -> str:
+    gap, within = _closed(diagnosis), _within(diagnosis)
+    unseen = [
+        f"the {name}"
+        for name in UNJUDGED
+        if Signal(name) not in diagnosis.gaps and _was_there(diagnosis, name)
+    ]
+    if unseen:
+        gap = f"{gap}; {listed(unseen)} could not be judged"
+    if any(one.after > REACHED * one.reachable for one in diagnosis.gaps.values()):
+        unsure = "Nothing is seen to be missing, but too little was left out to be sure"
+        return f"{unsure}{gap}."
+    return f"Nothing is missing: {within}what is left is noise{gap}."
+
+
+def _was_there(diagnosis: Diagnosis, name: str) -> bool:
+    """Whether there was a column of a quantity, be it that no reading of it is good."""
+    told = diagnosis.recording
+    column = BY_QUANTITY[name].name
+    return any(run.has(name) for run in told.runs) or any(
+        one.column == column for one in told.rejected
+    )
 
 
 def _within(diagnosis: Diagnosis) -> str:

@@ -6,7 +6,7 @@ import pytest
 
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
-from gripperd.diagnose.readings.recording import Contradiction
+from gripperd.diagnose.readings.recording import Contradiction, Rejection
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.statement import offered, reasons, span, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
@@ -167,6 +167,38 @@ def test_a_constant_that_moves_another_signal_is_not_what_closed_the_gap(
         "Nothing is missing: once constants move (diameter 20.23 mm instead of 20 mm"
         " first of all), what is left is noise; on data it never saw"
     )
+
+
+def test_what_was_measured_and_not_compared_is_told(creep: Diagnosis) -> None:
+    """A force without a contraction, and a grip of which no reading is good."""
+    nothing = nothing_missing(creep, {})
+    pressed = replace(nothing.gaps[Signal.FORCE], signal=Signal.PRESSURE)
+    lost = replace(
+        nothing.recording,
+        rejected=(Rejection("steps", "grip_N", 300, "out of range"),),
+    )
+    valve = replace(
+        nothing,
+        gaps={Signal.PRESSURE: pressed},
+        main=Signal.PRESSURE,
+        recording=lost,
+    )
+    said = summary(valve)
+    assert said.startswith("Nothing is missing: ")
+    assert said.endswith("; the force and the grip could not be judged.")
+    assert "judged" not in summary(nothing)
+
+
+def test_nothing_is_not_sure_to_be_missing_where_more_than_noise_is_left(
+    creep: Diagnosis,
+) -> None:
+    nothing = nothing_missing(creep, {})
+    gap = replace(nothing.gaps[Signal.FORCE], recalibrated=4 * 4.86, after=4 * 4.86)
+    said = summary(replace(nothing, gaps={Signal.FORCE: gap}))
+    assert said.startswith(
+        "Nothing is seen to be missing, but too little was left out to be sure; on data"
+    )
+    assert "noise" not in said
 
 
 def test_without_a_constant_that_could_move_only_noise_is_told(
