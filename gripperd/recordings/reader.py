@@ -13,7 +13,11 @@ from gripperd.recordings.csv_file import CsvFile
 from gripperd.recordings.header import WORDS, judge_names
 from gripperd.recordings.parquet_file import MAGIC, ParquetFile
 from gripperd.recordings.side_file import read_side_file
-from gripperd.recordings.sufficiency import require_enough, require_ratio
+from gripperd.recordings.sufficiency import (
+    require_enough,
+    require_milliamperes,
+    require_ratio,
+)
 from gripperd.recordings.sweeps import sweeps
 from gripperd.recordings.table import TableFile
 
@@ -33,6 +37,7 @@ def read_recording(path: Path) -> Recording:
     unread = judge_names(str(path), file.names)
     cut = sweeps(file.table(WORDS, COLUMNS))
     require_ratio(str(path), cut.runs)
+    require_milliamperes(str(path), cut.runs)
     side = read_side_file(path.with_suffix(".yaml"), cut.runs)
     runs, rejected = screened(side.labelled(cut.runs))
     require_enough(str(path), runs, rejected)

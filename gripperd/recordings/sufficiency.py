@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.readings.recording import Rejection, Run
 from gripperd.errors import InputError
+from gripperd.protocol.live_zero import BROKEN_ABOVE, BROKEN_BELOW
+from gripperd.units import MILLI
 
 LINKS = (
     ("current", "pressure"),
@@ -24,7 +26,10 @@ FEWEST = 20
 """Rows; fewer do not tell an effect from noise."""
 PERCENT = 0.25
 """Share of the readings of contraction above 1, from which no sensor is broken: it is
-told in percent, though rest length is held in up to three sweeps of four. [-]"""
+told in percent, though rest length is held in up to three sweeps of four. So of the
+current above what a loop can say. [-]"""
+IN_AMPERE = 0.9
+"""Share of readings that would be those of a loop in ampere. [-]"""
 
 
 def require_ratio(source: str, runs: Sequence[Run]) -> None:
@@ -44,6 +49,34 @@ def require_ratio(source: str, runs: Sequence[Run]) -> None:
             " readings; it is a ratio, counted from the rest length: 0.1 for 10 %"
         )
         raise InputError(detail)
+
+
+def require_milliamperes(source: str, runs: Sequence[Run]) -> None:
+    """Refuse a current in percent or ampere, before it is taken for a broken loop.
+
+    Raises
+    ------
+    InputError
+        Telling how many of its readings no loop gives.
+    """
+    told = [run.columns["current"] for run in runs if run.has("current")]
+    if not told:
+        return
+    readings = np.concatenate(told)
+    readings = readings[np.isfinite(readings)]
+    above = int((readings > BROKEN_ABOVE).sum())
+    loop = (readings >= BROKEN_BELOW * MILLI) & (readings <= BROKEN_ABOVE * MILLI)
+    if above > PERCENT * readings.size:
+        said = f"above {BROKEN_ABOVE / MILLI:g} mA in {above} of {readings.size}"
+        unit = "%"
+    elif loop.sum() > IN_AMPERE * readings.size:
+        # As many mA as a loop has A.
+        said = f"below {BROKEN_ABOVE:g} mA in {int(loop.sum())} of {readings.size}"
+        unit = "A"
+    else:
+        return
+    detail = f"{source}: column current_mA is {said} readings; is it in {unit}?"
+    raise InputError(detail)
 
 
 def require_enough(

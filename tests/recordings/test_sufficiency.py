@@ -78,7 +78,7 @@ def test_what_was_left_out_is_said_when_too_little_remains(
     write: Write, complaint: Complaint
 ) -> None:
     columns = _columns("current_mA", "pressure_kPa")
-    columns["current_mA"] = [0.0107] * 20
+    columns["current_mA"] = [1.07] * 20
     message = complaint(write(columns))
     assert message.endswith("(left out: 20 times current_mA under 3.6 mA)")
 
@@ -90,6 +90,31 @@ def test_a_contraction_in_percent_is_told(write: Write, complaint: Complaint) ->
         "rig.csv: column contraction is above 1 in 11 of 40 readings; it is a ratio,"
         " counted from the rest length: 0.1 for 10 %"
     )
+
+
+@pytest.mark.parametrize(
+    ("zero", "factor", "said"),
+    [
+        (0.004, 1e-3, "below 0.021 mA in 40 of 40 readings; is it in A?"),
+        (0.0, 100 / 16, "above 21 mA in 31 of 40 readings; is it in %?"),
+    ],
+)
+def test_a_current_in_another_unit_is_told(
+    write: Write, complaint: Complaint, zero: float, factor: float, said: str
+) -> None:
+    columns = good(40)
+    columns["current_mA"] = [zero + factor * 0.4 * row for row in range(40)]
+    assert complaint(write(columns)) == f"rig.csv: column current_mA is {said}"
+
+
+@pytest.mark.parametrize("dead", [0.0, 0.002, 23.0])
+def test_a_loop_that_is_broken_now_and_then_is_left_out(
+    write: Write, dead: float
+) -> None:
+    columns = good(40)
+    columns["current_mA"] = [*(4 + 0.4 * row for row in range(32)), *[dead] * 8]
+    recording = read_recording(write(columns))
+    assert sum(one.count for one in recording.rejected) == 8
 
 
 def test_a_broken_sensor_of_contraction_is_left_out(write: Write) -> None:
