@@ -25,6 +25,9 @@ CORNER = 0.001
 """Share of the largest reading up to which a cut corner does not matter: the error
 of good pressure transmitters. [-]"""
 
+ARRIVED = 2.0
+"""Time in which a pressure has come to rest, but for a leak. [s]"""
+
 TURNED = 0.1
 """Share of the way by which friction has turned round from which it is turning. [-]"""
 
@@ -57,6 +60,8 @@ def usable(course: Course, signal: Signal) -> Mask:
     sweeps = "pressure" in course.smooth and not is_table((course,))
     if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):
         good &= ~_transients(course)
+    if sweeps and signal is Signal.PRESSURE:
+        good &= ~_arriving(course)
     if signal is Signal.FORCE:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
         good &= ~_winding(course)
@@ -172,6 +177,30 @@ def _winding(course: Course) -> Mask:
     for start, end in pairwise([*turns.tolist(), sign.size]):
         gone = np.abs(way[start:end] - way[start])
         found[start:end] = ~np.logical_or.accumulate(gone > seen)
+    return found
+
+
+def _arriving(course: Course) -> Mask:
+    """Samples in which a sweep begins under way: nobody knows where it came from.
+
+    Its command has stood still since it began, and its pressure comes to rest.
+    """
+    pressure, current = course.level("pressure"), course.column("current")
+    found = np.zeros(len(course), dtype=bool)
+    if not np.isfinite(current).all():
+        return found
+    still = np.abs(current - current[0]) <= CORNER * np.max(np.abs(current))
+    early = course.time - course.time[0] < ARRIVED
+    end = int(np.argmin(np.append(still & early, False)))
+    if end < 2 * NEIGHBOURS:
+        return found
+    away = np.abs(pressure[:end] - np.median(pressure[end - NEIGHBOURS : end]))
+    sure = max(
+        OFF * course.hush("pressure") / NEIGHBOURS**0.5,
+        CORNER * float(np.nanmax(np.abs(pressure))),
+    )
+    if np.max(away[:NEIGHBOURS]) > 2 * sure:
+        found[: int(np.flatnonzero(away > sure)[-1]) + NEIGHBOURS] = True
     return found
 
 

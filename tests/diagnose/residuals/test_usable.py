@@ -300,6 +300,30 @@ def test_samples_next_to_a_step_of_pressure_are_left_out() -> None:
     assert good[55:].all()
 
 
+@pytest.mark.parametrize(
+    ("away", "time", "left_out"),
+    [
+        pytest.param(20e3, 0.2, 8, id="a valve on its way"),
+        pytest.param(20e3, 60.0, 0, id="a leak"),
+        pytest.param(0.0, 0.2, 0, id="at rest"),
+    ],
+)
+def test_a_pressure_that_comes_to_rest_as_a_sweep_begins_tells_nothing(
+    away: float, time: float, left_out: int
+) -> None:
+    """Its command went before the record began; then it ramps."""
+    clock = 0.04 * np.arange(400.0)
+    current = 0.012 + 0.0005 * np.maximum(clock - 4.0, 0.0)
+    settled = REGULATOR.gain * (current - 0.004)
+    pressure = settled - away * np.exp(-clock / time) + noise(400, 0.5e3)
+    told = run(current=current, pressure=pressure, time=clock)
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.PRESSURE)
+    assert not good[:left_out].any()
+    assert good[2 * left_out + 10 :].all()
+    assert good.all() == (left_out == 0)
+
+
 def test_a_slow_ramp_of_pressure_is_usable() -> None:
     course = _courses(recording())["a"]
     assert usable(course, Signal.PRESSURE).all()
