@@ -1,6 +1,6 @@
 """A recording cut into sweeps, each with all that is known of its course."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -15,7 +15,7 @@ from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
-from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
+from gripperd.diagnose.readings.stairs import Sweep, noise_at_rest, noise_on_stairs
 from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.table import lists_points
 from gripperd.diagnose.readings.travel import JAWS, STILL, contracting
@@ -63,31 +63,10 @@ def courses(
         )
         raise InputError(message, key="run")
     sweeps = as_commanded(sweeps)
-    names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
-    readings = {
-        name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
-        for name in names
-    }
-    noises = {
-        name: quick_noise(columns, coarse_step(columns), LONG)
-        for name, columns in readings.items()
-    }
-    stepped = noise_on_stairs([
-        Sweep(sweep.columns["current"], sweep.columns["pressure"])
-        for sweep in sweeps
-        if sweep.has("current") and sweep.has("pressure")
-    ])  # fmt: skip
-    if stepped:
-        noises["pressure"] = stepped
-    stated = dict(recording.noise)
-    if "length" in stated:
-        stated.setdefault("contraction", stated["length"] / rest_length)
-    for name, std in stated.items():
-        if name in noises and std > noises[name].std:
-            noises[name] = Noise(std, noises[name].correlation)
+    noises, on_stairs = _noises(recording, sweeps, rest_length)
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
     found = [
-        _course(sweep, noises, cycle, repeat, start, on_stairs=bool(stepped))
+        _course(sweep, noises, cycle, repeat, start, on_stairs=on_stairs)
         for sweep, cycle, repeat in zip(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
@@ -100,6 +79,38 @@ def courses(
         replace(course, waiting=wait, supply_drop=drop, listed=listed)
         for course, wait, drop in told
     ), noises
+
+
+def _noises(
+    recording: Recording, sweeps: Sequence[Run], rest_length: float
+) -> tuple[dict[str, Noise], bool]:
+    """Quick noise of each measured column, and whether the pressure goes in stairs."""
+    names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
+    readings = {
+        name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
+        for name in names
+    }
+    noises = {
+        name: quick_noise(columns, coarse_step(columns), LONG)
+        for name, columns in readings.items()
+    }
+    regulated = [
+        Sweep(sweep.columns["current"], sweep.columns["pressure"])
+        for sweep in sweeps
+        if sweep.has("current") and sweep.has("pressure")
+    ]
+    stepped, rest = noise_on_stairs(regulated), noise_at_rest(regulated)
+    if stepped:
+        noises["pressure"] = stepped
+    elif rest and rest.slow_variance < noises["pressure"].slow_variance:
+        noises["pressure"] = rest
+    stated = dict(recording.noise)
+    if "length" in stated:
+        stated.setdefault("contraction", stated["length"] / rest_length)
+    for name, std in stated.items():
+        if name in noises and std > noises[name].std:
+            noises[name] = Noise(std, noises[name].correlation)
+    return noises, stepped is not None
 
 
 def _course(

@@ -6,11 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.noise.model import quick_noise
 from gripperd.diagnose.readings.cutting import courses
-from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
+from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.readings.stairs import Sweep, noise_at_rest, noise_on_stairs
 from gripperd.model.track import Array
 from tests.diagnose.sleeping import sleeps, stuck
-from tests.diagnose.sweep import noise, triangle
+from tests.diagnose.sweep import noise, run, triangle
 
 NOISE, STEP = 2e3, 0.05
 LOW, HIGH = 20e3, 500e3
@@ -145,3 +147,33 @@ def test_a_noise_that_somebody_knows_counts_on_stairs_as_well() -> None:
     sweeps, noises = courses(told, 0.25)
     assert sweeps[0].on_stairs
     assert noises["pressure"].std == 5e3
+
+
+def _brisk(seed: int) -> Run:
+    """Ramps and rests in turn, half a second each, in a noise that remembers."""
+    turns = np.arange(49)
+    goals = np.repeat(100e3 + 350e3 * (turns[:25] % 4) / 3, 2)[:49]
+    moving = np.interp(np.arange(480) / 10, turns, goals)
+    command = np.concatenate([moving, np.full(800, 200e3)])
+    read = command + noise(command.size, NOISE, seed, memory=0.3)
+    current = 0.004 + 0.016 * command / 500e3
+    time = np.asarray(STEP * np.arange(float(command.size)))
+    return run(time=time, current=current, pressure=read)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_ramps_that_turn_every_second_are_no_noise_of_a_pressure(seed: int) -> None:
+    brisk = _brisk(seed)
+    throughout = quick_noise([brisk.columns["pressure"]])
+    assert throughout.std > 1.7 * NOISE
+    found = courses(Recording("brisk", "0", (brisk,)), 0.25)[1]["pressure"]
+    assert found.std == pytest.approx(NOISE, rel=0.15)
+    assert found.correlation == pytest.approx(0.3, abs=0.15)
+
+
+def test_where_the_command_seldom_rests_its_rests_tell_nothing() -> None:
+    sweeps = _sweeps(straight)
+    assert noise_at_rest(sweeps[:4]) is None
+    rested = noise_at_rest([*sweeps, *_sweeps(straight, 2)])
+    assert rested is not None
+    assert rested.std == pytest.approx(NOISE, rel=0.1)

@@ -148,7 +148,7 @@ def test_a_better_rival_that_but_mends_the_rest_takes_no_place() -> None:
     One that grows with the pressure would fit far better than the bias, but is of no
     worth beside the friction.
     """
-    problem = problem_of(recording(rubbing_more(0.1)), MODEL, {})
+    problem = problem_of(recording(rubbing_more(0.2)), MODEL, {})
     listed = (RUB, GROWS, BIAS)
     wrong = _believing(_found(problem, RUB), RUB, BIAS)
     better = fitted(wrong.problem, RUB, GROWS)
@@ -225,7 +225,7 @@ def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
     # Friction shows in the force alone, and a valve that is off in the pressure alone.
     short = 0.016 * 4.4 / 500
     low = altered(
-        recording(rubbing(5.8)), moments(), "current", lambda current: current + short
+        recording(rubbing(5.88)), moments(), "current", lambda current: current + short
     )
     problem = pinned(problem_of(low, MODEL, {}), "muscle.diameter")
     valve = Candidate("valve_offset", ValveOffset(offset=2e3))
