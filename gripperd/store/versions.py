@@ -98,8 +98,9 @@ class Versions:
         self.get(parent)
         with self._changing():
             # Under the lock: two that judge one recording at once keep one.
-            known = self.same(model, parent=parent, provenance=provenance)
-            if once and known is not None:
+            if once and (
+                known := self.same(model, parent=parent, provenance=provenance)
+            ):
                 return known
             number = max(self._numbers(), default=0) + 1
             lineage = Lineage(

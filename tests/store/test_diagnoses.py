@@ -128,6 +128,19 @@ def test_it_is_accepted_once(
     )
 
 
+def test_two_diagnoses_that_say_the_same_of_one_recording_are_one_version(
+    kept: Diagnoses, settings: Settings, found: StoredDiagnosis, provenance: Provenance
+) -> None:
+    again = asked("8", Status.SUCCEEDED)
+    kept.put(again)
+    place = kept.place(again.id)
+    (place / MODEL).write_text(model_text(settings.grippers["g0"].model))
+    write_improvement(better(settings), provenance, place)
+    names = [accept(one, kept, settings, LATER).name for one in (found, again)]
+    assert names == ["reference-1", "reference-1"]
+    assert kept.get(again.id).kept_as == "reference-1"
+
+
 def test_without_a_name_there_is_nothing_to_accept(
     kept: Diagnoses, settings: Settings, found: StoredDiagnosis
 ) -> None:
