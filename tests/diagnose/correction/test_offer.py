@@ -7,6 +7,7 @@ import pytest
 from gripperd.config import load_model
 from gripperd.diagnose.correction.offer import Offer, offers
 from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.residuals.holdout import Split, split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -113,6 +114,22 @@ def test_sweeps_sampled_at_rates_of_their_own_are_learnt_from_together() -> None
     given = offer.correction.at(_inputs(offer, 200e3, 0.1))
     expected = _bump_at(np.array([200e3]), np.array([0.1]))
     assert given == pytest.approx(expected, abs=8.0)
+
+
+def test_what_did_not_vary_is_held_where_it_was() -> None:
+    told = recording(_bump)
+    warm = replace(
+        told,
+        runs=tuple(
+            replace(
+                run,
+                columns={**run.columns, "temperature": 0 * run.columns["time"] + 295},
+            )
+            for run in told.runs
+        ),
+    )
+    (offer,) = _offered(pinned(problem_of(warm, MODEL, {}), "muscle.diameter"))
+    assert offer.correction.held == {BY_QUANTITY["temperature"]: (295.0, 295.0)}
 
 
 def test_it_is_worth_what_it_takes_off_on_sweeps_left_out(bump: Offer) -> None:
