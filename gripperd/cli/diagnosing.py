@@ -131,6 +131,7 @@ def _shown(found: "Diagnosis") -> bool:
 
     try:
         show(found)
+    # So rich ends a program whose output nobody takes.
     except SystemExit:
         return False
     return True
