@@ -50,7 +50,8 @@ def _left(out: Path) -> str:
 
 def _told(story: "Story") -> Iterator[tuple[str, str]]:
     from gripperd.diagnose.readings.columns import BY_QUANTITY
-    from gripperd.diagnose.statement import span, statement, summary
+    from gripperd.diagnose.statement import statement, summary
+    from gripperd.diagnose.verdict.region import span
 
     found = story.diagnosis
     if found.main is None or not found.named:
@@ -68,7 +69,7 @@ def _told(story: "Story") -> Iterator[tuple[str, str]]:
             "where",
             f"Better constants alone leave {bias}"
             f" {BY_QUANTITY[finding.signal.value].unit} in {finding.run},"
-            f" {span(finding, 'time')} s.",
+            f" {span(finding.region, 'time')} s.",
         )
     for entry in found.named:
         yield "missing", statement(found, entry)

@@ -12,14 +12,14 @@ from gripperd.cli.model import PIPE_WIDTH
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.objection import contradicted, left_out
 from gripperd.diagnose.readings.columns import BY_QUANTITY
-from gripperd.diagnose.statement import offered, span, statement, summary
+from gripperd.diagnose.statement import offered, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.diagnose.verdict.key import Key, keys_of, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import recalibrated
-from gripperd.diagnose.verdict.where import Finding
+from gripperd.diagnose.verdict.region import Region, span, way
 from gripperd.model.effect import Signal
 from gripperd.report.untested import untested
 
@@ -122,7 +122,7 @@ def _where(diagnosis: Diagnosis) -> Table | None:
     table = Table("stage", "run", "region", "off by", "p", box=None)
     for one in diagnosis.where[:PLACES]:
         table.add_row(
-            one.stage, one.run, _region(one), _sized(one.signal, one.bias),
+            one.stage, one.run, _region(one.region), _sized(one.signal, one.bias),
             chance(one.p_value),
         )  # fmt: skip
     if more := len(diagnosis.where) - PLACES:
@@ -130,13 +130,13 @@ def _where(diagnosis: Diagnosis) -> Table | None:
     return table
 
 
-def _region(finding: Finding) -> str:
+def _region(region: Region) -> str:
     said = [
-        f"{label}{span(finding, name)} {BY_QUANTITY[name].unit}".rstrip()
+        f"{label}{span(region, name)} {BY_QUANTITY[name].unit}".rstrip()
         for name, label in REGION.items()
-        if name in finding.region
+        if name in region
     ]
-    return ", ".join(said)
+    return ", ".join([*said, way(region)] if way(region) else said)
 
 
 def _extrapolation(diagnosis: Diagnosis) -> Group | None:

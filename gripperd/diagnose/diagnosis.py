@@ -228,7 +228,7 @@ def _weighed(
         recording=recording,
         verdict=conclusion.verdict,
         named=entries,
-        where=findings(train, train.residuals(found.null.fit.point)),
+        where=findings(*((part, part.residuals(base)) for part in (train, parts.test))),
         gaps=judged,
         main=main,
         held_out=swept(parts, inside),

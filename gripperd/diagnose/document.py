@@ -1,10 +1,8 @@
 """A diagnosis as the document that files and replies have, in the units of its keys."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import floor, log10
 from typing import TypeAlias
-
-import numpy as np
 
 from gripperd.diagnose.correction.document import correction_document
 from gripperd.diagnose.diagnosis import Diagnosis
@@ -18,6 +16,7 @@ from gripperd.diagnose.verdict.key import keys_of, number, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.diagnose.verdict.recalibrated import Recalibrated, recalibrated
+from gripperd.diagnose.verdict.region import region_document
 from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
@@ -158,21 +157,12 @@ def _finding(finding: Finding) -> Document:
         "stage": finding.stage,
         "signal": column.name,
         "run": finding.run,
-        "region": _region(finding.region),
+        "region": region_document(finding.region),
         "bias": number(finding.bias / column.scale),
         "std": number(finding.std / column.scale),
         "unit": column.unit,
         "p_value": number(max(finding.p_value, UNLIKELY)),
     }
-
-
-def _region(region: Mapping[str, tuple[float, float]]) -> Document:
-    written: Document = {}
-    for name, ends in region.items():
-        column = BY_QUANTITY.get(name, Column(name, name))
-        values = column.written(np.array(ends)).tolist()
-        written[column.name] = [number(value) for value in values]
-    return written
 
 
 def _next(proposal: Proposal | None) -> Document | None:

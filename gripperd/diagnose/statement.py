@@ -14,13 +14,10 @@ from gripperd.diagnose.verdict.gap import REACHED
 from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, plain, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import recalibrated
-from gripperd.diagnose.verdict.where import Finding
 from gripperd.model.effect import Signal
 
 LITTLE = 0.8
 """Share of a gap that better constants leave, above which they need no mention. [-]"""
-PLACES = {"time": 0, "pressure": 0, "contraction": 3}
-"""Decimal places of a region, in the unit of the file."""
 
 UNJUDGED = ("force", "opening", "grip")
 """What is told of when it was measured and no prediction of it could be compared."""
@@ -237,18 +234,6 @@ def _open(diagnosis: Diagnosis) -> str:
 def _size(signal: Signal, size: float) -> str:
     column = BY_QUANTITY[signal.value]
     return f"{size / column.scale:.3g} {column.unit}".rstrip()
-
-
-def span(finding: Finding, name: str) -> str:
-    """Write one end of a region to the other, ``-`` when it says nothing of it."""
-    if name not in finding.region:
-        return "-"
-    column = BY_QUANTITY[name]
-    places = PLACES.get(name, 1)
-    low, high = ((end - column.zero) / column.scale for end in finding.region[name])
-    # Adding 0 turns what would read as -0 into 0.
-    ends = [f"{round(end, places) + 0.0:.{places}f}" for end in (low, high)]
-    return " to ".join(dict.fromkeys(ends))
 
 
 def offered(offer: Offer) -> str:

@@ -10,11 +10,11 @@ from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.diagnose.search.rivalry import EVEN
-from gripperd.diagnose.statement import span
 from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.gap import Gap
 from gripperd.diagnose.verdict.key import keys_of, public
 from gripperd.diagnose.verdict.recalibrated import recalibrated
+from gripperd.diagnose.verdict.region import span, way
 from gripperd.reproduce.chapters import Table
 
 RANKED = 12
@@ -204,11 +204,13 @@ def places(diagnosis: Diagnosis) -> Table | None:
             f"{one.bias / BY_QUANTITY[one.signal.value].scale:+.3g}"
             f" {BY_QUANTITY[one.signal.value].unit}",
             chance(one.p_value),
-            *(span(one, name) for name in ("time", "pressure", "contraction")),
+            *(span(one.region, name) for name in ("time", "pressure", "contraction")),
+            way(one.region) or "-",
         )
         for one in diagnosis.where[:PLACES]
     )
     columns = (
-        "run", "stage", "off by", "p-value", "time [s]", "pressure [kPa]", "contraction"
+        "run", "stage", "off by", "p-value", "time [s]", "pressure [kPa]",
+        "contraction", "way",
     )  # fmt: skip
     return Table("Where, with better constants alone", columns, rows) if rows else None

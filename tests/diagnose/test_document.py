@@ -161,9 +161,8 @@ def test_a_place_lies_inside_the_recording(creep: Diagnosis) -> None:
     last = max(float(run.columns["time"][-1]) for run in creep.recording.runs)
     for place in written(creep)["where"]:
         assert place["run"] in runs
-        assert place["region"].keys() == {
-            "t_s", "pressure_kPa", "contraction", "direction",
-        }  # fmt: skip
+        cut_by = place["region"].keys() - {"pressure_direction"}
+        assert cut_by == {"t_s", "pressure_kPa", "contraction", "direction"}
         low, high = place["region"]["t_s"]
         assert 0 <= low <= high <= last
         low, high = place["region"]["pressure_kPa"]

@@ -8,10 +8,9 @@ from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.recording import Contradiction, Rejection
 from gripperd.diagnose.residuals.point import Point
-from gripperd.diagnose.statement import offered, reasons, span, statement, summary
+from gripperd.diagnose.statement import offered, reasons, statement, summary
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate, Named
-from gripperd.diagnose.verdict.where import Finding
 from gripperd.effects.creep import Creep
 from gripperd.model.effect import Signal
 from tests.demonstration import example
@@ -246,22 +245,3 @@ def test_effects_not_tested_are_listed_by_the_reason(creep: Diagnosis) -> None:
         untested={"leak": "too short", "parameter:valve.pressure_low": "too short"},
     )
     assert reasons(told) == {"too short": ["leak", "parameter:valve.pressure_low_kPa"]}
-
-
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        ("time", "820 to 880"),
-        ("pressure", "0 to 434"),
-        ("contraction", "0.105"),
-        ("temperature", "-"),
-    ],
-)
-def test_a_region_is_told_in_the_units_of_the_file(name: str, said: str) -> None:
-    region = {
-        "time": (819.8, 880.3),
-        "pressure": (-120.0, 433.6e3),
-        "contraction": (0.1051, 0.1052),
-    }
-    finding = Finding("muscle", Signal.FORCE, "step_0", region, 9.3, 1.6, 1e-10)
-    assert span(finding, name) == said

@@ -14,7 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.travel import SURE, travel
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.verdict.region import Region
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -22,6 +24,8 @@ PIECES = 8
 """Stretches into which a sweep is cut at most."""
 FEWEST = 4
 """Samples of a stretch."""
+RIPPLE = 0.02
+"""Way of a pressure, of its highest, that turns no sweep round. [-]"""
 LEVEL = 0.01
 """Chance of any false finding in a whole recording."""
 STAGES: Mapping[Signal, str] = {
@@ -40,8 +44,9 @@ class Finding:
     stage: str
     signal: Signal
     run: str
-    region: Mapping[str, tuple[float, float]]
-    """Lowest and highest of time, pressure, contraction, direction... [SI]"""
+    region: Region
+    """Lowest and highest of time, pressure, contraction, direction... [SI]; that of the
+    pressure where the sweep was cut by it."""
     bias: float
     """Measured minus predicted, mean. [SI]"""
     std: float
@@ -50,18 +55,18 @@ class Finding:
     """Chance of such a bias, for how many stretches were looked at (Holm [1]_). [-]"""
 
 
-def findings(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...]:
+def findings(*examined: tuple[Problem, Sequence[Array]]) -> tuple[Finding, ...]:
     """Name the stretches in which residuals are no noise, largest bias first.
 
     Parameters
     ----------
-    problem
-        The recording and the model.
-    residuals
-        Measured minus predicted of the recalibrated model, block by block. [SI]
+    examined
+        Parts of one recording under the recalibrated model, each with its residuals,
+        measured minus predicted, block by block. [SI]
     """
     cells = [
         cell
+        for problem, residuals in examined
         for index, residual in enumerate(residuals)
         for cell in _cells(problem, index, residual)
     ]
@@ -75,7 +80,7 @@ def findings(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...
             break
         kept.append(_with_p(cell, worst))
     joined = _joined(kept)
-    scale = problem.full_scale
+    scale = examined[0][0].full_scale
     return tuple(sorted(joined, key=lambda one: -abs(one.bias) / scale[one.signal]))
 
 
@@ -84,17 +89,56 @@ def _cells(problem: Problem, index: int, residual: Array) -> Iterator[Finding]:
     course = problem.courses[block.course]
     noise = problem.noises[block.signal]
     chosen = np.flatnonzero(block.good)
-    pieces = min(PIECES, residual.size // FEWEST)
-    for piece in np.array_split(np.arange(residual.size), pieces) if pieces else ():
+    name, turning = _turning(course, block.signal, problem.highest)
+    for piece in _stretches(turning[chosen]):
         loud = noise.slow_variance * np.mean(1 / shares[piece] ** 2)
         slow = loud / piece.size + noise.drift**2
         std = float(np.sqrt(slow))
         bias = float(np.mean(residual[piece]))
         p_value = float(erfc(abs(bias) / std / 2**0.5))
+        region = _region(course, chosen[piece])
+        region[name] = _ends(turning[chosen[piece]])
         yield Finding(
-            STAGES[block.signal], block.signal, course.run,
-            _region(course, chosen[piece]), bias, std, p_value,
-        )  # fmt: skip
+            STAGES[block.signal], block.signal, course.run, region, bias, std, p_value
+        )
+
+
+def _turning(
+    course: Course, signal: Signal, highest: Mapping[Signal, float]
+) -> tuple[str, Array]:
+    """What goes there and back in a sweep, and the sign of its way.
+
+    What lags or rubs is off one way there and the other way back.
+    """
+    pressure, top = course.level("pressure"), highest.get(Signal.PRESSURE, 0.0)
+    travels = signal is not Signal.PRESSURE and course.direction.any()
+    if travels or not (np.isfinite(pressure).all() and top > 0):
+        return "direction", course.direction
+    least = max(RIPPLE * top, SURE * course.hush("pressure"))
+    return "pressure_direction", travel(pressure, least)
+
+
+def _stretches(turning: Array) -> list[NDArray[np.intp]]:
+    """Cut a sweep where it turns, and each way into as many as it is long.
+
+    Ways of a cycle that goes on are looked at together, all there and all back.
+    """
+    size = turning.size
+    most = min(PIECES, size // FEWEST)
+    if not most:
+        return []
+    turns = np.flatnonzero(np.diff(turning)) + 1
+    ways = np.split(np.arange(size), turns)
+    if len(ways) > most:
+        ways = [np.flatnonzero(turning == sign) for sign in (1.0, -1.0, 0.0)]
+    long = [way for way in ways if way.size >= FEWEST]
+    if not 0 < len(long) <= most:
+        long = [np.arange(size)]
+    return [
+        piece
+        for way in long
+        for piece in np.array_split(way, max(1, round(most * way.size / size)))
+    ]
 
 
 def _region(
@@ -122,18 +166,17 @@ def _with_p(cell: Finding, p_value: float) -> Finding:
 def _joined(kept: Sequence[Finding]) -> list[Finding]:
     """Neighbouring stretches of one run that are off the same way become one."""
     out: list[Finding] = []
-    for cell in sorted(kept, key=lambda one: (one.run, one.signal, one.region["time"])):
+    for cell in sorted(kept, key=lambda one: (_kind(one), one.region["time"])):
         last = out[-1] if out else None
-        if (
-            last is not None
-            and (last.run, last.signal) == (cell.run, cell.signal)
-            and last.bias * cell.bias > 0
-            and _adjoin(last, cell)
-        ):
+        if last is not None and _kind(last) == _kind(cell) and _adjoin(last, cell):
             out[-1] = _union(last, cell)
         else:
             out.append(cell)
     return out
+
+
+def _kind(one: Finding) -> tuple[str, Signal, bool]:
+    return one.run, one.signal, one.bias > 0
 
 
 def _adjoin(one: Finding, next_one: Finding) -> bool:

@@ -1,3 +1,4 @@
+from collections.abc import Sequence
 from dataclasses import replace
 from math import erfc
 
@@ -5,12 +6,14 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.verdict.where import LEVEL, PIECES, findings
+from gripperd.diagnose.verdict.where import LEVEL, PIECES, Finding, findings
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-from tests.diagnose.small import moments, undoubted
-from tests.diagnose.sweep import noise
+from tests.diagnose.cycled import cut
+from tests.diagnose.small import MODEL, moments, undoubted
+from tests.diagnose.sweep import noise, run, triangle
 
 STD, DRIFT = 3.0, 1.0
 
@@ -29,25 +32,34 @@ def _quiet(problem: Problem, seed: int = 0) -> list[Array]:
     ]
 
 
+def _found(problem: Problem, residuals: Sequence[Array]) -> tuple[Finding, ...]:
+    return findings((problem, residuals))
+
+
 def _off(problem: Problem, run: str, *biases: float) -> list[Array]:
     """Residuals of which stretches of one sweep are off by so much, else nothing."""
     residuals = [np.zeros(time.size) for time in problem.times]
     (index,) = (
         i for i, b in enumerate(problem.blocks) if problem.courses[b.course].run == run
     )
-    for stretch, bias in zip(
-        np.array_split(residuals[index], PIECES), biases, strict=True
-    ):
+    cut = _halved(problem.times[index], residuals[index])
+    for stretch, bias in zip(cut, biases, strict=True):
         stretch += bias
     return residuals
 
 
+def _halved(time: Array, values: Array) -> list[Array]:
+    """As many stretches of the way there as of the way back: all take as long."""
+    halves = np.split(values, [np.searchsorted(time, (time[0] + time[-1]) / 2)])
+    return [piece for half in halves for piece in np.array_split(half, PIECES // 2)]
+
+
 def test_noise_is_nowhere_wrong(plain: Problem) -> None:
-    assert sum(bool(findings(plain, _quiet(plain, seed))) for seed in range(10)) <= 1
+    assert sum(bool(_found(plain, _quiet(plain, seed))) for seed in range(10)) <= 1
 
 
 def test_a_stretch_that_is_off_is_named_with_its_bias(plain: Problem) -> None:
-    (found,) = findings(plain, _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0))
+    (found,) = _found(plain, _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0))
     assert (found.run, found.signal, found.stage) == ("d", Signal.FORCE, "muscle")
     assert found.bias == pytest.approx(20.0)
     course = plain.courses[3]
@@ -62,9 +74,9 @@ def test_a_stretch_that_is_off_is_named_with_its_bias(plain: Problem) -> None:
 
 
 def test_the_standard_error_holds_noise_and_drift(plain: Problem) -> None:
-    (found,) = findings(plain, _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0))
+    (found,) = _found(plain, _off(plain, "d", 0, 0, 20, 0, 0, 0, 0, 0))
     (samples,) = {
-        np.array_split(time, PIECES)[2].size
+        _halved(time, time)[2].size
         for time, block in zip(plain.times, plain.blocks, strict=True)
         if plain.courses[block.course].run == "d"
     }
@@ -88,24 +100,25 @@ def test_the_standard_error_holds_what_the_inputs_are_not_known_by(
     ]
     doubtful = replace(plain, courses=tuple(courses))
     off = _off(plain, "d", 0, 0, 60, 0, 0, 0, 0, 0)
-    (found,), (known,) = findings(doubtful, off), findings(plain, off)
-    pressed = np.array_split(20e3 * moments()["d"].pull_area, PIECES)[2]
+    (found,), (known,) = _found(doubtful, off), _found(plain, off)
+    moment = moments()["d"]
+    pressed = _halved(moment.time, 20e3 * moment.pull_area)[2]
     told = (found.std**2 - known.std**2) * pressed.size
     assert told == pytest.approx(np.mean(pressed**2), rel=0.1)
 
 
 def test_neighbours_that_are_off_the_same_way_are_one(plain: Problem) -> None:
-    (found,) = findings(plain, _off(plain, "d", 0, 0, 20, 30, 0, 0, 0, 0))
+    (found,) = _found(plain, _off(plain, "d", 0, 0, 20, 30, 0, 0, 0, 0))
     assert 20.0 < found.bias < 30.0
 
 
 def test_neighbours_that_are_off_in_opposite_ways_are_two(plain: Problem) -> None:
-    found = findings(plain, _off(plain, "d", 0, 0, 20, -30, 0, 0, 0, 0))
+    found = _found(plain, _off(plain, "d", 0, 0, 20, -30, 0, 0, 0, 0))
     assert [round(one.bias) for one in found] == [-30, 20]
 
 
 def test_what_is_apart_stays_apart(plain: Problem) -> None:
-    found = findings(plain, _off(plain, "d", 20, 0, 0, 0, 0, 0, 0, 20))
+    found = _found(plain, _off(plain, "d", 20, 0, 0, 0, 0, 0, 0, 20))
     assert len(found) == 2
 
 
@@ -118,12 +131,12 @@ def test_the_largest_comes_first(plain: Problem) -> None:
             strict=True,
         )
     ]
-    assert [one.run for one in findings(plain, residuals)] == ["b", "d"]
+    assert [one.run for one in _found(plain, residuals)] == ["b", "d"]
 
 
-@pytest.mark.parametrize(("apart", "pieces"), [(4, 5), (10, 2), (16, 1)])
+@pytest.mark.parametrize(("apart", "size"), [(4, 5), (10, 4), (16, 5)])
 def test_a_short_sweep_is_cut_into_fewer_stretches(
-    plain: Problem, apart: int, pieces: int
+    plain: Problem, apart: int, size: int
 ) -> None:
     kept = tuple(np.arange(len(course)) % apart == 1 for course in plain.courses)
     short = replace(plain, kept=kept)
@@ -135,10 +148,10 @@ def test_a_short_sweep_is_cut_into_fewer_stretches(
         )
         if plain.courses[block.course].run == "d"
     )
-    assert time.size // pieces >= 4
-    last = time.size - time.size // pieces
+    # Of 23 samples two and three stretches, of 9 one each way, of 5 all of them.
+    last = time.size - size
     left[last:] = 20.0
-    (found,) = findings(short, residuals)
+    (found,) = _found(short, residuals)
     assert (found.run, found.bias) == ("d", 20.0)
     assert found.region["time"] == (time[last], time[-1])
 
@@ -146,13 +159,13 @@ def test_a_short_sweep_is_cut_into_fewer_stretches(
 def test_chances_are_corrected_by_holm(plain: Problem) -> None:
     # Alternating signs, so that none are joined; the first are clear, the last not.
     biases = [12.0, -9.0, 6.0, -5.0, 4.5, -4.0, 3.5, -3.0]
-    found = findings(plain, _off(plain, "d", *biases))
+    found = _found(plain, _off(plain, "d", *biases))
     cells = sum(min(PIECES, time.size // 4) for time in plain.times)
     assert cells == PIECES * len(plain.blocks)
     raw = []
     for block, time in zip(plain.blocks, plain.times, strict=True):
         if plain.courses[block.course].run == "d":
-            for stretch, bias in zip(np.array_split(time, PIECES), biases, strict=True):
+            for stretch, bias in zip(_halved(time, time), biases, strict=True):
                 std = (STD**2 / stretch.size + DRIFT**2) ** 0.5
                 raw.append(erfc(abs(bias) / std / 2**0.5))
     corrected = [
@@ -162,3 +175,53 @@ def test_chances_are_corrected_by_holm(plain: Problem) -> None:
     kept = [p for p in corrected if p <= LEVEL]
     assert 0 < len(kept) < PIECES
     assert sorted(one.p_value for one in found) == pytest.approx(kept)
+
+
+LOOP = 1.5
+
+
+def _cycled(**columns: Array) -> tuple[Problem, Array]:
+    """Ten cycles of 8 s, and 1 on the way there, -1 on the way back."""
+    sweeps = cut(run("a", None, force=np.full(800, 100.0), **columns))
+    problem = Problem(sweeps, MODEL, (), {Signal.FORCE: Noise(STD, 0.0)}, slack=-np.inf)
+    return problem, np.tile(np.repeat([1.0, -1.0], 40), 10)
+
+
+def _to_and_fro(low: float, high: float) -> Array:
+    return np.tile(triangle(80, low, high), 10)
+
+
+@pytest.mark.parametrize(
+    ("columns", "name"),
+    [
+        (
+            {"pressure": np.full(800, 2e5), "contraction": _to_and_fro(0.0, 0.2)},
+            "direction",
+        ),
+        (
+            {"pressure": _to_and_fro(1e5, 4e5), "contraction": np.zeros(800)},
+            "pressure_direction",
+        ),
+    ],
+)
+def test_a_cycle_that_goes_on_is_off_by_its_loop(
+    columns: dict[str, Array], name: str
+) -> None:
+    """Ways there and ways back are told apart: their mean is nothing."""
+    problem, way = _cycled(**columns)
+    (block,) = problem.blocks
+    found = findings((problem, [LOOP * way[block.good]]))
+    told = {one.region[name]: one.bias for one in found}
+    assert told.keys() == {(1.0, 1.0), (-1.0, -1.0)}
+    assert told[1.0, 1.0] == pytest.approx(LOOP, rel=0.05)
+    assert told[-1.0, -1.0] == pytest.approx(-LOOP, rel=0.05)
+    assert all(np.ptp(one.region["time"]) > 70.0 for one in found)
+
+
+def test_what_was_left_out_is_looked_at_as_well(plain: Problem) -> None:
+    parts = split(plain)
+    off = [np.zeros(time.size) for time in parts.test.times]
+    off[0] += 20.0
+    found = findings((parts.train, _quiet(parts.train)), (parts.test, off))
+    assert found[0].run == parts.test.courses[parts.test.blocks[0].course].run
+    assert found[0].bias == pytest.approx(20.0)
