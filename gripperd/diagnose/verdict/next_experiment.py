@@ -21,6 +21,7 @@ from gripperd.diagnose.readings.recording import Kind, Run
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.verdict.key import plain
+from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
 SAMPLING = 0.1
@@ -71,21 +72,26 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
     """
     names = f"{_title(one, other)} from {_title(other, one)}"
     top, far = _reach(problem, one)
-    best: tuple[float, Sweep] | None = None
-    for sweep in _sweeps(problem, top, far):
-        gain = _separation(problem, sweep, one, other)
-        rate = gain / float(sweep.time[-1])
-        if gain > WORTH and (best is None or rate > best[0]):
-            best = rate, sweep
-    if best is None:
-        why = (
-            f"no sweep up to {top / 1e3:.0f} kPa and a contraction of {far:.3g} tells"
-            f" {names}: go further, measure one of them on its own, or check the"
-            " sensors with a reference"
-        )
-        return Proposal(None, why, "", {})
-    _, sweep = best
-    return Proposal(sweep.kind, f"separates {names}", sweep.title, _plan(sweep))
+    planned = [
+        (sweep, _separations(problem, sweep, one, other))
+        for sweep in _sweeps(problem, top, far)
+    ]
+    # One that tells whichever is true; else one that does if the stiffer of both is.
+    for does, rise in (("separates", min), ("may separate", max)):
+        rates = [
+            (rise(rises) / float(sweep.time[-1]), sweep)
+            for sweep, rises in planned
+            if rise(rises) > WORTH
+        ]
+        if rates:
+            _, sweep = max(rates, key=lambda known: known[0])
+            return Proposal(sweep.kind, f"{does} {names}", sweep.title, _plan(sweep))
+    why = (
+        f"no sweep up to {top / 1e3:.0f} kPa and a contraction of {far:.3g} tells"
+        f" {names}: go further, measure one of them on its own, or check the"
+        " sensors with a reference"
+    )
+    return Proposal(None, why, "", {})
 
 
 def _title(one: Rival, other: Rival) -> str:
@@ -93,14 +99,23 @@ def _title(one: Rival, other: Rival) -> str:
     return " and ".join(own or ["the model without it"])
 
 
-def _separation(problem: Problem, sweep: Sweep, one: Rival, other: Rival) -> float:
-    """Rise of the misfit of either rival if the other is true, after refitting."""
-    # Nothing of a plan is slack, whatever force stands in for the one not measured yet.
-    planned = replace(
-        problem, courses=(_course(problem, sweep),), kept=(), dwells=(), slack=-np.inf
-    )
+def _separations(
+    problem: Problem, sweep: Sweep, one: Rival, other: Rival
+) -> tuple[float, float]:
+    """Rise of the misfit of each rival if the other is true, after refitting."""
+    course = _course(problem, sweep)
+    planned = replace(problem, courses=(course,), kept=(), dwells=(), slack=-np.inf)
+    if np.isfinite(problem.slack):
+        # Of a muscle that cannot push no sample tells in which either has it slack.
+        least = _least(planned, one, other)
+        measured = {**course.measured, **least}
+        smooth = {
+            name: level for name, level in course.smooth.items() if name not in least
+        }
+        taut = replace(course, measured=measured, smooth=smooth)
+        planned = replace(planned, courses=(taut,), slack=problem.slack)
     if not planned.blocks:
-        return 0.0
+        return 0.0, 0.0
     a = planned.expected(planned.explanation(one.fit.point))
     b = planned.expected(planned.explanation(other.fit.point))
     apart = np.concatenate(
@@ -109,14 +124,27 @@ def _separation(problem: Problem, sweep: Sweep, one: Rival, other: Rival) -> flo
             for i, (x, y) in enumerate(zip(a, b, strict=True))
         ]
     )
-    gains = []
+    rises = []
     for rival in (one, other):
         columns = slopes(planned, rival.fit.point, rival.fit.coordinates)
         known = np.linalg.inv(rival.fit.posterior)
         moments = columns.T @ apart
         refit = np.linalg.solve(known + columns.T @ columns, moments)
-        gains.append(float(apart @ apart - moments @ refit))
-    return min(gains)
+        rises.append(float(apart @ apart - moments @ refit))
+    return rises[0], rises[1]
+
+
+def _least(planned: Problem, one: Rival, other: Rival) -> dict[str, Array]:
+    """Give the lower force that the two expect, by the name of its column. [N]."""
+    found: dict[str, Array] = {}
+    expected = [
+        planned.expected(planned.explanation(rival.fit.point)) for rival in (one, other)
+    ]
+    for block, *forces in zip(planned.blocks, *expected, strict=True):
+        if block.signal is Signal.FORCE:
+            found["force"] = np.full(len(planned.courses[0]), np.nan)
+            found["force"][block.good] = np.minimum(*forces)
+    return found
 
 
 def _course(problem: Problem, sweep: Sweep) -> Course:

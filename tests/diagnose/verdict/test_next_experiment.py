@@ -175,7 +175,34 @@ def test_a_muscle_that_may_be_slack_is_planned_for_all_the_same() -> None:
     )
     # A large muscle: below 150 N its force is not told from none.
     slack = replace(problem, slack=150.0)
-    assert proposal(slack, *rivals).kind is proposal(problem, *rivals).kind
+    found = proposal(slack, *rivals)
+    assert found.kind is proposal(problem, *rivals).kind
+
+
+def _loops_apart(slack: float) -> Proposal:
+    """Dry friction from its memory, of a muscle that is slack below so many newtons."""
+    problem = _problem(rubbing(10.0))
+    rivals = (
+        _rival(problem, CoulombFriction(magnitude=10.0)),
+        _rival(problem, PreslidingHysteresis(near=10.0)),
+    )
+    return proposal(replace(problem, slack=slack), *rivals)
+
+
+def test_no_muscle_is_planned_to_push_that_cannot() -> None:
+    """In no sweep at all does it pull with 2 kN."""
+    assert _loops_apart(slack=-np.inf).kind is Kind.CYCLE
+    assert _loops_apart(slack=2e3).kind is None
+
+
+def test_a_sweep_that_tells_one_way_round_alone_may_separate() -> None:
+    """Where no loop is taut, only what friction does at rest length is seen.
+
+    There its memory can take on the sign of dry friction, but not the other way.
+    """
+    found = _loops_apart(slack=600.0)
+    assert found.kind is Kind.ISOMETRIC
+    assert found.why == "may separate coulomb friction from presliding hysteresis"
 
 
 def test_a_leak_is_told_from_a_gain_by_a_hold() -> None:
