@@ -133,7 +133,7 @@ class Creep(InMuscle):
             if share:
                 time = self.time * SPACING**index
                 state = memory[index : index + 1]
-                late += share * (load - lag(load, track.step, time, time, state))
+                late += share * (load - lag(load, track.step, time, state))
         if self.of is Creeping.PRESSURE:
             late *= track.pull_area
         return value - late

@@ -6,7 +6,8 @@ References
        J. Dyn. Sys., Meas., Control 122(3), 416-425, 2000: filling and exhaust differ,
        and a valve that is choked lets no more through, however far the pressure is off.
 .. [2] ISO 6358-1:2013: near the pressure behind it, an orifice lets through what grows
-       as the square root of the drop.
+       as the square root of the drop, and far from it what grows with the pressure
+       before it.
 """
 
 from dataclasses import dataclass
@@ -14,8 +15,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from gripperd.model.filling import Filling, filled
 from gripperd.model.kinds import InValve
-from gripperd.model.memory import KEPT, delay, lag
+from gripperd.model.memory import KEPT, delay
 from gripperd.model.parameter import amplitude, shape
 from gripperd.model.track import Array, Track
 
@@ -32,7 +34,9 @@ class ValveLag(InValve):
         e = p_0(t - T) - p_l \quad \text{in 100 kPa}
 
     The regulator's own gain, an orifice and a choke hold the air up one after another.
-    A spool that breaks loose and a tube hold the pressure back before it moves.
+    What empties into the air goes by with the pressure that is left in it [2]_, by a
+    share of its own: see :func:`gripperd.model.filling.filled`. A spool that breaks
+    loose and a tube hold the pressure back before it moves.
     """
 
     name: ClassVar[str] = "valve_lag"
@@ -49,14 +53,16 @@ class ValveLag(InValve):
         unit="s", starts=(0.5, 0.05, 0.15, 1.5, 5.0), low=0.005, high=60.0
     )
     """Time constant of filling, 100 kPa away. [s]"""
-    exhaust: float = shape(unit=None, starts=(1.0, 2.0), low=0.2, high=5.0)
-    """Time constant of exhaust over that of filling. [-]"""
+    exhaust: float = shape(unit=None, starts=(1.0, 2.0), low=0.2, high=10.0)
+    """Time constant of exhaust over that of filling, at 300 kPa. [-]"""
     dead_time: float = shape(unit="ms", starts=(0.0, 0.03), low=0.0, high=1.0)
     """Time before anything follows. [s]"""
     throttle: float = shape(unit=None, starts=(0.0,), low=0.0, high=0.99)
     """What orifice and choke hold up, 100 kPa away; the rest the regulator. [0..1]"""
     choked: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """The choke's share of that. [0..1]"""
+    sonic: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """Share of the exhaust that goes with the pressure in the muscle. [0..1]"""
 
     def rest(self) -> Array:
         """A lag that begins settled, then the past of a delay; shape (2, 1 + KEPT)."""
@@ -66,9 +72,12 @@ class ValveLag(InValve):
         """Pressure that has come so far. [Pa]."""
         late = delay(value, track.time, self.dead_time, memory[:, 1:])
         own = 1 - self.throttle
-        rise = own * self.time
-        orifice = self.throttle * (1 - self.choked) / own / FAR**0.5
-        throttle = (orifice, self.throttle * self.choked / own / FAR)
-        held = memory[0, :1]
-        late = lag(late, track.step, rise, rise * self.exhaust, held, throttle)
+        law = Filling(
+            own * self.time,
+            own * self.time * self.exhaust,
+            orifice=self.throttle * (1 - self.choked) / own / FAR**0.5,
+            choke=self.throttle * self.choked / own / FAR,
+            sonic=self.sonic,
+        )
+        late = filled(late, track.step, law, memory[0, :1])
         return value + self.share * (late - value)

@@ -11,8 +11,6 @@ References
        section 2.3: play and stop.
 .. [2] P. R. Dahl, "Solid friction damping of mechanical vibrations", AIAA J. 14(12),
        1675-1682, 1976.
-.. [3] ISO 6358-1:2013: the flow through an orifice grows less than the pressure across
-       it, and in the end not at all (choked).
 """
 
 from typing import TypeAlias
@@ -24,9 +22,6 @@ from gripperd.model.compiled import compiled
 
 Array: TypeAlias = NDArray[np.float64]
 
-NEWTON = 8
-"""Steps of a root that is convex: up to 10 bar away, whatever orifice and choke hold up
-of 99 %, so many left less than 0.01 Pa in 200 000 draws."""
 KEPT = 1024
 """Samples that a delay remembers from call to call: one second at 1 kHz."""
 
@@ -36,18 +31,8 @@ def begin(size: int = 1) -> Array:
     return np.full(size, np.nan)
 
 
-def lag(
-    signal: Array,
-    step: Array,
-    rise: float,
-    fall: float,
-    state: Array,
-    throttle: tuple[float, float] = (0.0, 0.0),
-) -> Array:
+def lag(signal: Array, step: Array, constant: float, state: Array) -> Array:
     """First-order lag, exact for a signal that is constant between samples.
-
-    What follows at a distance ``e`` nears by ``e / (T (1 + o sqrt(e) + c e))``: through
-    an orifice as the square root, and choked no faster than ``1 / (T c)`` [3]_.
 
     Parameters
     ----------
@@ -55,14 +40,12 @@ def lag(
         What is followed, shape ``(n,)``.
     step
         Time since the sample before, shape ``(n,)``. [s]
-    rise, fall
-        Time constants while the signal is above and below what follows it. [s]
+    constant
+        Time constant. [s]
     state
         What has followed so far, shape ``(1,)``; it is moved on.
-    throttle
-        ``o`` of an orifice [1 / sqrt(any)] and ``c`` of a choke. [1 / any]
     """
-    return compiled(_lag)(signal, step, (rise, fall), state, throttle)
+    return compiled(_lag)(signal, step, constant, state)
 
 
 def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
@@ -149,36 +132,15 @@ def leaked(
     return compiled(_leaked)(signal, step, still, law, state)
 
 
-def _lag(
-    signal: Array,
-    step: Array,
-    constants: tuple[float, float],
-    state: Array,
-    throttle: tuple[float, float],
-) -> Array:
+def _lag(signal: Array, step: Array, constant: float, state: Array) -> Array:
     out = np.empty_like(signal)
-    rise, fall = constants
-    orifice, choke = throttle
     last = goal = state[0]
     for index in range(signal.size):
         if not np.isnan(signal[index]):
             goal = signal[index]
         if np.isnan(last):
             last = goal
-        constant = rise if goal > last else fall
-        away = last - goal
-        kept = np.exp(-step[index] / constant)
-        if choke + orifice > 0 and away != 0:
-            # log e + 2 o sqrt(e) + c e falls by t / T: Newton comes to it from above.
-            far = np.log(abs(away))
-            slow, bent = orifice * np.exp(far / 2), choke * np.exp(far)
-            whole = far + 2 * slow + bent - step[index] / constant
-            found = min(far, whole)
-            for _ in range(NEWTON):
-                slow, bent = orifice * np.exp(found / 2), choke * np.exp(found)
-                found -= (found + 2 * slow + bent - whole) / (1 + slow + bent)
-            kept = np.exp(found - far)
-        last = goal + away * kept
+        last = goal + (last - goal) * np.exp(-step[index] / constant)
         out[index] = last
     state[0] = last
     return out

@@ -112,3 +112,14 @@ def test_sample_by_sample_it_is_the_same(muscle: Muscle, dead_time: float) -> No
 
 def test_a_steady_pressure_has_arrived() -> None:
     assert ValveLag(share=1.0).settled(200e3, (0.0, 500e3)) == 200e3
+
+
+def test_what_exhausts_goes_with_the_pressure_that_is_left(muscle: Muscle) -> None:
+    """Choked above 2.4 bar, by ISO 6358 with b = 0.3: in proportion to it."""
+    effect = ValveLag(share=1.0, time=2.0, exhaust=3.0, sonic=1.0)
+    for pressure in (500e3, 300e3, 240e3):
+        asked = np.array([pressure, pressure - 1e3])
+        track = track_of(muscle, step=np.array([0.0, 0.06]))
+        found = effect.along(asked, track, effect.rest())
+        passed = 0.06 / 6.0 * (pressure + 101325) / (300e3 + 101325)
+        assert found[0] - found[1] == pytest.approx(-1e3 * np.expm1(-passed), rel=0.01)

@@ -12,21 +12,13 @@ KNOWN[GAP] = False
 
 def test_a_lag_goes_on_to_where_it_was_sent_last() -> None:
     sent = np.where(TIME > 0, 5.0, 0.0)
-    found = lag(np.where(KNOWN, sent, np.nan), STEP, 2.0, 2.0, begin())
+    found = lag(np.where(KNOWN, sent, np.nan), STEP, 2.0, begin())
     assert found == pytest.approx(5 * -np.expm1(-TIME / 2))
-
-
-def test_a_throttled_lag_goes_on_too() -> None:
-    sent = np.where(TIME > 0, 5.0, 0.0)
-    throttle = (0.5, 1.0)
-    whole = lag(sent, STEP, 2.0, 2.0, begin(), throttle)
-    found = lag(np.where(KNOWN, sent, np.nan), STEP, 2.0, 2.0, begin(), throttle)
-    assert found == pytest.approx(whole)
 
 
 def test_a_lag_settles_at_the_first_sample_that_is_known() -> None:
     sent = np.array([np.nan, np.nan, 3.0, 4.0])
-    found = lag(sent, np.full(4, 0.1), 2.0, 2.0, begin())
+    found = lag(sent, np.full(4, 0.1), 2.0, begin())
     assert np.isnan(found[:2]).all()
     assert found[2:] == pytest.approx([3.0, 4.0 - np.exp(-0.05)])
 

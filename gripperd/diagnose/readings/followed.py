@@ -53,18 +53,18 @@ def followed(command: Array, step: Array, pressure: Array) -> Iterator[Followed]
     """
     price = 0.5 * FREE * float(np.log(np.isfinite(pressure).sum()))
     for late in LATE:
-        yield Followed(lag(command, step, late, late, begin()), 0.0)
+        yield Followed(lag(command, step, late, begin()), 0.0)
         yield Followed(_looped(command, step, late, pressure), price)
 
 
 def _looped(command: Array, step: Array, late: float, pressure: Array) -> Array:
     """Command less the nearest stop [1]_ of any height, from wherever it came."""
     known = np.isfinite(pressure)
-    plain = [np.ones_like(command), lag(command, step, late, late, begin())]
+    plain = [np.ones_like(command), lag(command, step, late, begin())]
     tried = []
     for before, radius in product(BEFORE, RADII * np.ptp(command)):
         loop = stop(command, radius, command[:1] - before * radius)
-        basis = np.column_stack([*plain, lag(loop, step, late, late, begin())])
+        basis = np.column_stack([*plain, lag(loop, step, late, begin())])
         weights, *_ = np.linalg.lstsq(basis[known], pressure[known], rcond=1e-6)
         tried.append(np.asarray(basis @ weights))
     return min(tried, key=lambda one: float(np.sum((pressure - one)[known] ** 2)))

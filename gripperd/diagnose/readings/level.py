@@ -17,6 +17,7 @@ from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.legs import borne_out, legs_of
 from gripperd.diagnose.readings.recording import Run
+from gripperd.diagnose.readings.rest import at_rest
 from gripperd.diagnose.readings.travel import (
     JAWS,
     SURE,
@@ -117,7 +118,7 @@ def _steady(sweep: Run, known: Smooth) -> Smooth:
         return known
     signs, turned = _travelled(sweep, known)
     if not signs.any():
-        still = np.full_like(value, value.mean())
+        still = at_rest(sweep.columns["contraction"], known)
         return known._replace(value=still, rate=0.0 * value)
     out = _one_way(value, signs)
     if (before := signs == 0).any():

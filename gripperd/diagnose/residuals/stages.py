@@ -85,9 +85,7 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
             value = _along(effect, value, track)
     if signal is Signal.PRESSURE and explanation.response > 0:
         quick = explanation.response
-        value = track.each(
-            lambda one, run: lag(one, run.step, quick, quick, begin()), value
-        )
+        value = track.each(lambda one, run: lag(one, run.step, quick, begin()), value)
     # Neither does a regulator suck, nor do jaws pull at what they hold.
     bounded = signal in (Signal.PRESSURE, Signal.GRIP)
     return np.maximum(value, 0.0) if bounded else value
