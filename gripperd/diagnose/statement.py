@@ -11,7 +11,7 @@ from gripperd.diagnose.search.stiction import DRY
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.figures import fixed, listed
 from gripperd.diagnose.verdict.gap import REACHED
-from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, plain, public
+from gripperd.diagnose.verdict.key import keys_of, known_key, plain, public
 from gripperd.diagnose.verdict.named import Named
 from gripperd.diagnose.verdict.recalibrated import recalibrated
 from gripperd.model.effect import Signal
@@ -108,7 +108,7 @@ def _corrected(diagnosis: Diagnosis, entry: Named) -> str:
     """
     assert entry.path is not None
     (estimate,) = entry.parameters.values()
-    key = CONSTANTS[entry.path]
+    key = known_key(entry.path)
     nominal = next(
         one.nominal
         for one in diagnosis.found.problem.constants

@@ -11,10 +11,10 @@ from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import WRONG
 from gripperd.diagnose.residuals.constants import Constant
 from gripperd.diagnose.residuals.point import Point
-from gripperd.diagnose.verdict.key import CONSTANTS, Key, keys_of, public
+from gripperd.diagnose.verdict.key import Key, keys_of, known_key, public
 from gripperd.model.track import Array
 
-OWNERS = frozenset({"muscle", "valve", "gripper"})
+OWNERS = frozenset({"muscle", "valve", "gripper", "effects"})
 """Parts of a model file that have constants."""
 WIDTH, ZERO = "gripper.open_width", "zero.opening"
 """No recording tells the width of open jaws from the zero of their sensor, so that the
@@ -90,9 +90,9 @@ def _numbers(diagnosis: Diagnosis) -> Iterator[Number]:
     zero = sum(units[i] for i, one in enumerate(moved) if one.path == ZERO)
     for index, (constant, row) in enumerate(zip(moved, units, strict=False)):
         if is_owned(constant) or index in point.freed:
-            path, key = constant.path, CONSTANTS[constant.path]
+            path, key = constant.path, known_key(constant.path)
             whole = row + zero if path == WIDTH else row
-            yield Number(path, public(f"{WRONG}{path}"), key, whole)
+            yield Number(constant.stated_as, public(f"{WRONG}{path}"), key, whole)
     keys = {one.name: keys_of(one) for one in diagnosis.named if one.effect}
     for one, row in zip(fit.coordinates, units[len(moved) :], strict=True):
         key = keys[one.effect][one.parameter]

@@ -27,9 +27,10 @@ from gripperd.diagnose.verdict.key import (
     CONSTANTS,
     Key,
     keys_of,
+    known_key,
     rounded,
 )
-from gripperd.diagnose.verdict.named import Estimate, Named
+from gripperd.diagnose.verdict.named import Estimate
 from gripperd.errors import Refused
 from gripperd.model import StaticMuscle
 from gripperd.model.effect import Effect, acts_in_muscle
@@ -72,7 +73,7 @@ def improvement(model: ModelFile, diagnosis: Diagnosis, program: str) -> Improve
     point = kept(diagnosis)
     gap = _confirmed(diagnosis, point)
     found = diagnosis.found.problem.explanation(point)
-    effects = _tidy_effects(found.effects, diagnosis.named)
+    effects = _tidy_effects(found.effects, diagnosis)
     better = replace(
         model,
         static=StaticMuscle(
@@ -102,9 +103,14 @@ def _tidy(part: Part, keys: Mapping[str, Key]) -> Part:
 
 
 def _tidy_effects(
-    effects: Iterable[Effect], entries: Iterable[Named]
+    effects: Iterable[Effect], diagnosis: Diagnosis
 ) -> tuple[Effect, ...]:
-    keys = {entry.name: keys_of(entry) for entry in entries}
+    """Round the numbers of what was added, and of what the model had."""
+    keys = {entry.name: keys_of(entry) for entry in diagnosis.named}
+    for one, _ in constants(diagnosis):
+        if one.effect is not None:
+            name = one.stated_as.rpartition(".")[2]
+            keys.setdefault(one.effect.name, {})[name] = known_key(one.path)
     return tuple(_tidy(each, keys.get(each.name, {})) for each in effects)
 
 
@@ -160,9 +166,9 @@ def _tolerances(diagnosis: Diagnosis) -> Iterator[tuple[str, float]]:
     fit = fitted(diagnosis)
     for constant, value in constants(diagnosis):
         low, high = constant.limits
-        possible = min(fit.std(constant.path), value - low, high - value)
+        possible = min(fit.std(constant.stated_as), value - low, high - value)
         # A value at its limit cannot be off both ways: it is told without.
-        yield constant.path, CONSTANTS[constant.path].tidy(possible)
+        yield constant.stated_as, known_key(constant.path).tidy(possible)
     for entry in diagnosis.named:
         known = parameters(entry.effect) if entry.effect else {}
         keys = keys_of(entry)

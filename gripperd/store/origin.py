@@ -8,7 +8,7 @@ from gripperd.config import Provenance
 from gripperd.config.lineage import Added, Covariance, Gap, Recorded
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import WRONG
-from gripperd.diagnose.verdict.key import CONSTANTS, keys_of, public, rounded
+from gripperd.diagnose.verdict.key import keys_of, known_key, public, rounded
 from gripperd.diagnose.verdict.named import Named
 from gripperd.store.fitted import Fitted, constants, fitted
 
@@ -57,12 +57,12 @@ def _recalibrated(diagnosis: Diagnosis, known: Fitted) -> Iterator[Added]:
     """Constants that moved by more than their tolerance without being called wrong."""
     wrong = {one.path for one in diagnosis.named}
     for constant, value in constants(diagnosis):
-        path, key = constant.path, CONSTANTS[constant.path]
+        path, key = constant.path, known_key(constant.path)
         if path not in wrong and abs(value - constant.nominal) > constant.sigma:
             yield Added(
                 name=public(f"{WRONG}{path}"),
                 parameters={key.text: rounded(value / key.factor)},
-                std={key.text: rounded(known.std(path) / key.factor)},
+                std={key.text: rounded(known.std(constant.stated_as) / key.factor)},
             )
 
 

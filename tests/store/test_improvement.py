@@ -11,10 +11,13 @@ from gripperd.demo.rig import Hidden, Rig
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate
+from gripperd.effects.braid_friction import BraidFriction
+from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep
+from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.errors import Refused
-from gripperd.model import PressedObject
+from gripperd.model import PressedObject, StaticMuscle
 from gripperd.model.effect import Signal
 from gripperd.store import Version, Versions
 from gripperd.store.improvement import improvement
@@ -202,6 +205,32 @@ def test_open_jaws_are_as_wide_as_their_sensor_reads(creep: Found) -> None:
     assert known["gripper.open_width"] == pytest.approx(
         float(np.std(drawn @ sigmas)), rel=0.01
     )
+
+
+def test_an_effect_of_the_model_gets_the_size_that_was_found(
+    creep: Found, tmp_path: Path
+) -> None:
+    """A threshold of 20 kPa in the model is one of 40 on the rig."""
+    effects = (RubberElasticity(), BraidFriction(), ThresholdPressure(pressure=20e3))
+    model = replace(creep[0], static=StaticMuscle(MODEL.muscle, effects), tolerances={})
+    told = diagnose(
+        recording(lacking(40.0)),
+        replace(MODEL, effects=effects),
+        {},
+        {"coulomb_friction": CoulombFriction},
+    )
+    version = kept((model, told), tmp_path)
+    (threshold,) = (
+        one
+        for one in load_model(tmp_path / "1.yaml").static.effects
+        if isinstance(one, ThresholdPressure)
+    )
+    assert threshold.pressure == pytest.approx(40e3, rel=0.1)
+    path = "effects.threshold_pressure.pressure"
+    (estimate,) = told.named[0].parameters.values()
+    assert version.model.tolerances[path] == pytest.approx(estimate.std, rel=1e-3)
+    # Its number is as round as that of any constant.
+    assert threshold.pressure == round(threshold.pressure, 2)
 
 
 @pytest.mark.parametrize(

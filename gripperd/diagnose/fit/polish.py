@@ -203,6 +203,8 @@ def _moved(
         acting[coordinate.effect] = replace(effect, **{coordinate.parameter: bounded})
     reach = problem.reach(point)
     shifts = np.clip(vector[:count], -reach, reach) * point.widths
+    # Beyond what could be made at all nothing changes, and no slope leads back.
+    shifts = np.clip(shifts, *problem.makable)
     return replace(point, shifts=shifts, effects=tuple(acting.values()))
 
 

@@ -5,9 +5,11 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import TypeVar
 
-from gripperd.diagnose.residuals.explanation import Explanation
-from gripperd.model.effect import Signal
+from gripperd.diagnose.residuals.explanation import Explanation, moves
+from gripperd.model.effect import Effect, Signal
+from gripperd.model.parameter import parameters
 from gripperd.model.track import Array
+from gripperd.units import split
 
 Sign = TypeVar("Sign", float, Array)
 
@@ -36,7 +38,8 @@ SKEW = 0.004
 SKEWED = ("pressure", "contraction")
 
 FRICTION = 0.1
-"""No coefficient of friction repeats better than that, whatever is stated. [-]"""
+"""No coefficient of friction repeats better than that, whatever is stated, nor does an
+effect that the model has from elsewhere without a stated tolerance. [-]"""
 
 RESTING = 0.4
 """Prior of the sign of friction before any travel: with the bounds of a constant it
@@ -51,7 +54,7 @@ MUSCLE = (
     "diameter", "braid_angle", "wall_thickness", "elastic_modulus",
     "friction_coefficient",
 )  # fmt: skip
-PARTS = ("muscle", "valve", "gripper")
+PARTS = ("muscle", "valve", "gripper", "effects")
 """Parts of a model, with tolerances; the rest is how it was measured."""
 VALVE = ("pressure_low", "pressure_high")
 GRIPPER = ("open_width", "ratio", "spring_preload", "spring_rate")
@@ -62,17 +65,28 @@ class Constant:
     """One number of the model and how far it may be off."""
 
     path: str
-    """As in tolerances, such as ``muscle.diameter``."""
+    """As in tolerances, such as ``muscle.diameter``; of an effect that the model has
+    with its unit, such as ``effects.creep.time_s``."""
     nominal: float
     sigma: float
     stated: bool
     """Whether the model file states the tolerance."""
     usual: float = 0.0
     """The sigma of parts as they are made; 0 of what is no part."""
+    effect: Effect | None = None
+    """Of the model, that it is a size of."""
+
+    @property
+    def stated_as(self) -> str:
+        """As in tolerances."""
+        owner, _, name = self.path.rpartition(".")
+        return self.path if self.effect is None else f"{owner}.{split(name)[0]}"
 
     @property
     def moves(self) -> frozenset[Signal]:
         """Signals it changes."""
+        if self.effect is not None:
+            return moves(self.effect) or frozenset(Signal)
         return _MOVES.get(self.path) or _MOVES[self.path.partition(".")[0]]
 
     @property
@@ -85,9 +99,9 @@ class Constant:
         """How far it may be off, in sigma."""
         if self.path.partition(".")[0] not in PARTS:
             return NUISANCE
-        # Parts are made to a size; a coefficient of friction is what it happens to be.
-        made = not self.stated and not self.path.endswith("friction_coefficient")
-        return MADE if made else TOLERATED
+        # Parts are made to a size; friction and effects are what they happen to be.
+        happens = self.effect is not None or self.path.endswith("friction_coefficient")
+        return TOLERATED if self.stated or happens else MADE
 
     def value(self, shift: float) -> float:
         """As it is when off by so many sigma, within what could be made at all."""
@@ -97,6 +111,9 @@ class Constant:
     @property
     def limits(self) -> tuple[float, float]:
         """Between which it could be made at all."""
+        if self.effect is not None:
+            known = parameters(self.effect)[self.stated_as.rpartition(".")[2]]
+            return known.low, known.high
         return _MADE_AT_ALL.get(self.path, (-inf, inf))
 
     @property
@@ -164,6 +181,8 @@ def constants(
         for owner, names in (("muscle", MUSCLE), ("valve", VALVE), ("gripper", GRIPPER))
         for constant in _of_part(explanation, owner, names, tolerances)
     ]
+    for effect in explanation.effects:
+        found += _of_effect(effect, tolerances)
     found += [
         Constant(f"zero.{signal.value}", 0.0, _zero(signal) * scale, stated=False)
         for signal, scale in full_scale.items()
@@ -205,6 +224,31 @@ def _of_part(
             yield Constant(path, nominal, sigma, path in tolerances, usual)
 
 
+def _of_effect(effect: Effect, tolerances: Mapping[str, float]) -> Iterator[Constant]:
+    """Sizes of an effect that the model has; none of one that is as in the textbook."""
+    plain = type(effect)()
+    for name, known in parameters(effect).items():
+        value = getattr(effect, name)
+        if not known.is_amplitude or value == getattr(plain, name):
+            continue
+        path = f"effects.{effect.name}.{name}"
+        usual = FRICTION * abs(value)
+        sigma = tolerances.get(path, usual)
+        if sigma > 0 and isfinite(sigma):
+            unit = f"_{known.unit}" if known.unit else ""
+            yield Constant(path + unit, value, sigma, path in tolerances, usual, effect)
+
+
+def _resized(effect: Effect, sizes: Mapping[str, float]) -> Effect:
+    """Give an effect of a model with its sizes by their paths in it."""
+    own = {
+        split(path.rpartition(".")[2])[0]: size
+        for path, size in sizes.items()
+        if path.partition(".")[0] == effect.name
+    }
+    return replace(effect, **own) if own else effect
+
+
 def moved(
     explanation: Explanation, listed: Sequence[Constant], shifts: Sequence[float]
 ) -> Explanation:
@@ -220,6 +264,10 @@ def moved(
         and replace(explanation.regulator, **values.get("valve", {})),
         linkage=explanation.linkage
         and replace(explanation.linkage, **values.get("gripper", {})),
+        effects=tuple(
+            _resized(effect, values.get("effects", {}))
+            for effect in explanation.effects
+        ),
         zeros={Signal(name): zero for name, zero in values.get("zero", {}).items()},
         rests=_signs(values.get("rest", {})),
         skews={Signal(name): skew for name, skew in values.get("skew", {}).items()},

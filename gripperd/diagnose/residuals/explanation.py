@@ -5,7 +5,14 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from gripperd.model import Linkage, Muscle, Regulator
-from gripperd.model.effect import Effect, SensorEffect, Signal, acts_in_sensor
+from gripperd.model.effect import (
+    Effect,
+    SensorEffect,
+    Signal,
+    Stage,
+    acts_in_gripper,
+    acts_in_sensor,
+)
 
 
 class AtRest(StrEnum):
@@ -57,3 +64,11 @@ class Explanation:
         else:
             effects = (*self.effects, effect)
         return replace(self, effects=effects)
+
+
+def moves(effect: Effect) -> frozenset[Signal] | None:
+    """Signals an effect changes; all for a sensor."""
+    if effect.stage is Stage.SENSOR:
+        return None
+    stretches = acts_in_gripper(effect) and effect.hidden_contraction(1.0) != 0
+    return frozenset({effect.signal, Signal.FORCE} if stretches else {effect.signal})

@@ -103,6 +103,16 @@ class Problem:
             reach[list(point.freed)] = NUISANCE
         return reach
 
+    @cached_property
+    def makable(self) -> tuple[Array, Array]:
+        """Shifts within which each constant could be made at all, in sigma."""
+        ends = [
+            [(limit - one.nominal) / one.sigma for limit in one.limits]
+            for one in self.constants
+        ]
+        low, high = np.array(ends).reshape(-1, 2).T
+        return low, high
+
     def explanation(self, point: Point) -> Explanation:
         """Give the model at a point."""
         model = moved(self.model, self.constants, point.shifts.tolist())

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gripperd.diagnose.residuals.explanation import Explanation
+from gripperd.diagnose.residuals.explanation import Explanation, moves
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.runs import Runs
-from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
+from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import in_use
 from gripperd.model.track import Array
 
@@ -126,14 +126,6 @@ def _quotient(
         (a - b) / step if a.size else zero
         for a, b, zero in zip(there, here, problem.zeros, strict=True)
     ]
-
-
-def moves(effect: Effect) -> frozenset[Signal] | None:
-    """Signals an effect changes; all for a sensor."""
-    if effect.stage is Stage.SENSOR:
-        return None
-    stretches = acts_in_gripper(effect) and effect.hidden_contraction(1.0) != 0
-    return frozenset({effect.signal, Signal.FORCE} if stretches else {effect.signal})
 
 
 def _nudged(effect: Effect, *, acts: bool) -> Iterator[tuple[Effect, float]]:

@@ -9,9 +9,9 @@ from gripperd.diagnose.fit.bending import bendable, bent
 from gripperd.diagnose.fit.candidates import Candidate, is_exact
 from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.residuals.explanation import moves
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.response import moves
 from gripperd.model.effect import Signal
 
 PHANTOM = 0.06

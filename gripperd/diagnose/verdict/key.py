@@ -82,10 +82,32 @@ CONSTANTS: Mapping[str, Key] = MappingProxyType(
 friction, have none: they are nuisances, and never a candidate."""
 
 
+def key_of(path: str) -> Key | None:
+    """Key of a constant; none of a nuisance.
+
+    >>> key_of("effects.coulomb_friction.magnitude_N").title
+    'magnitude of the coulomb friction'
+    """
+    owner, _, rest = path.partition(".")
+    if owner != "effects":
+        return CONSTANTS.get(path)
+    effect, _, text = rest.partition(".")
+    name, _unit = split(text)
+    words = (name.replace("_", " "), effect.replace("_", " "))
+    return Key(text, " of the ".join(words))
+
+
+def known_key(path: str) -> Key:
+    """Key of a constant that has one."""
+    key = key_of(path)
+    assert key is not None
+    return key
+
+
 def keys_of(entry: Named) -> dict[str, Key]:
     """Keys of everything fitted of an effect or a constant, by its name inside."""
     if entry.path is not None:
-        return dict.fromkeys(entry.parameters, CONSTANTS[entry.path])
+        return dict.fromkeys(entry.parameters, known_key(entry.path))
     assert entry.effect is not None
     return {
         name: Key(f"{name}_{known.unit}" if known.unit else name, name)
@@ -103,7 +125,7 @@ def public(name: str) -> str:
     if not name.startswith(WRONG):
         return name
     path = name.removeprefix(WRONG)
-    return f"{WRONG}{path.partition('.')[0]}.{CONSTANTS[path].text}"
+    return f"{WRONG}{path.rpartition('.')[0]}.{known_key(path).text}"
 
 
 def plain(name: str) -> str:
@@ -113,7 +135,7 @@ def plain(name: str) -> str:
     ('a wrong diameter', 'valve lag')
     """
     if name.startswith(WRONG):
-        return f"a wrong {CONSTANTS[name.removeprefix(WRONG)].title}"
+        return f"a wrong {known_key(name.removeprefix(WRONG)).title}"
     return name.replace("_", " ")
 
 

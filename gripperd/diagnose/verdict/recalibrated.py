@@ -8,7 +8,7 @@ import numpy as np
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.constants import Constant
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.verdict.key import CONSTANTS, Key
+from gripperd.diagnose.verdict.key import Key, key_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ def recalibrated(problem: Problem, told: Rival) -> Iterator[Recalibrated]:
     for constant, shift, std in zip(
         problem.constants, point.shifts.tolist(), stds.tolist(), strict=True
     ):
-        if (key := CONSTANTS.get(constant.path)) is not None:
+        if (key := key_of(constant.path)) is not None:
             scale = constant.sigma / key.factor
             model = constant.nominal / key.factor
             yield Recalibrated(

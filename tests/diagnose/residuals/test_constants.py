@@ -7,6 +7,7 @@ from gripperd.diagnose.residuals.constants import Constant, constants, moved
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
+from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.model.effect import Signal
 from tests.diagnose.small import LINKAGE, MODEL, recording, with_jaws
 
@@ -59,6 +60,43 @@ def test_jaws_open_and_follow_the_muscle() -> None:
     ratio = Constant("gripper.ratio", 4.0, 3.0, stated=True)
     assert 0 < width.value(-2.0) < 1e-5
     assert 0 < ratio.value(-2.0) < 0.02
+
+
+RUBBING = replace(MODEL, effects=(*MODEL.effects, CoulombFriction(magnitude=18.0)))
+
+
+@pytest.mark.parametrize(("stated", "sigma"), [({}, 1.8), ({"magnitude": 0.3}, 0.3)])
+def test_the_size_of_an_effect_of_the_model_may_be_off(
+    stated: dict[str, float], sigma: float
+) -> None:
+    """By a tenth, or by what the model file says; what bends it stays."""
+    tolerances = {f"effects.coulomb_friction.{name}": s for name, s in stated.items()}
+    found = [
+        one
+        for one in constants(RUBBING, tolerances, SCALES, [2])
+        if one.path.startswith("effects.")
+    ]
+    (size,) = found
+    assert size.path == "effects.coulomb_friction.magnitude_N"
+    assert size.stated_as == "effects.coulomb_friction.magnitude"
+    assert size.nominal == 18.0
+    assert size.sigma == pytest.approx(sigma)
+    assert size.moves == {Signal.FORCE}
+    # Dry friction never drives.
+    assert size.value(-1e3) == 0.0
+
+
+def test_an_explanation_has_the_effects_of_its_model_at_their_moved_sizes() -> None:
+    listed = constants(RUBBING, {}, SCALES, [2])
+    shifts = [float(one.path.startswith("effects.")) for one in listed]
+    *textbook, friction = moved(RUBBING, listed, shifts).effects
+    assert tuple(textbook) == MODEL.effects
+    assert isinstance(friction, CoulombFriction)
+    assert friction.magnitude == pytest.approx(19.8)
+
+
+def test_the_size_of_a_textbook_term_is_that_of_its_constants() -> None:
+    assert not any(path.startswith("effects.") for path in _listed())
 
 
 def test_friction_is_never_known_as_well_as_a_length() -> None:
