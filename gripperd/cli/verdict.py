@@ -143,7 +143,10 @@ def _extrapolation(diagnosis: Diagnosis) -> Group | None:
     beyond = diagnosis.extrapolation
     if beyond is None:
         return None
-    return Group(Text(", ".join(beyond.runs)), _gaps(diagnosis, beyond.gaps))
+    runs = ", ".join(beyond.runs)
+    if beyond.gaps == diagnosis.gaps:
+        return Group(Text(f"{runs}: none but such sweeps were held out, as above"))
+    return Group(Text(runs), _gaps(diagnosis, beyond.gaps))
 
 
 def _gaps(diagnosis: Diagnosis, gaps: Mapping[Signal, Gap]) -> Table:

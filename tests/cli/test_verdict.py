@@ -7,6 +7,7 @@ from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.recording import Contradiction, Rejection
 from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.diagnose.verdict.extrapolation import Extrapolation
 from gripperd.diagnose.verdict.named import Estimate
 from tests.demonstration import example
 
@@ -83,3 +84,13 @@ def test_what_the_model_lacks_is_told_apart_from_what_was_not_recorded(
     )
     assert "temperature_stiffness: temperature not measured\n" in of_recording
     assert "nonlinear_elasticity: rubber_elasticity is not in the model" in of_model
+
+
+def test_what_lies_beyond_all_others_is_told_once(
+    creep: Diagnosis, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With one run its end is all that is held out, and goes where nothing else did."""
+    beyond = Extrapolation(("a (last quarter)",), creep.gaps)
+    text = told(replace(creep, extrapolation=beyond), capsys)
+    assert text.count("noise floor") == 1
+    assert "a (last quarter): none but such sweeps were held out" in text

@@ -96,3 +96,15 @@ def added(point: Point, candidate: Candidate) -> Point:
         return point.with_effect(candidate.effect)
     assert candidate.constant is not None
     return replace(point, freed=point.freed | {candidate.constant})
+
+
+def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
+    """Take a candidate out at a point."""
+    if candidate.effect is not None:
+        return point.without(candidate.name)
+    assert candidate.constant is not None
+    held = replace(point, freed=point.freed - {candidate.constant})
+    reach = problem.reach(held)
+    return replace(
+        held, shifts=np.clip(held.shifts, -reach * held.widths, reach * held.widths)
+    )

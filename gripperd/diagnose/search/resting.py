@@ -12,13 +12,12 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import WRONG, Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival
+from gripperd.diagnose.fit.rival import Rival, removed
 from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.stages import BRAIDED
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import removed
 from gripperd.diagnose.search.stepwise import NEXT, additions
 from gripperd.model.effect import Signal
 

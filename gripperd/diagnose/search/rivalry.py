@@ -9,8 +9,8 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
-from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
-from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.fit.rival import Rival, Start, added, fitted, removed
+from gripperd.diagnose.residuals.holdout import FEW
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import LEAST
 from gripperd.diagnose.search.found import Found
@@ -26,6 +26,9 @@ CHALLENGERS = 4
 SURE = 2.0
 """A rival behind by less could be true: a true difference of so much has a standard
 error of root 2 of it, which is as much again. [nat]"""
+OF_FEW = 3.0
+"""By how much more it may be behind in fewer sweeps than can be left out whole: then
+nothing but their ends tells which of two formulas is that of nature. [nat]"""
 EVEN = 0.1
 """A rival ahead by less has only been fitted a little further, and takes no place: two
 processors round differently. [nat]"""
@@ -126,6 +129,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
     problem, best = found.problem, told.best
     null = found.null.fit
     margin = _margin(null.cost - best.fit.cost, best.excess, best.fit.samples)
+    margin += OF_FEW if len(problem.courses) < FEW else 0.0
     places = []
     for index, place in enumerate(told.places):
         rivals = sorted(place.rivals, key=lambda one: -one.evidence)
@@ -284,15 +288,3 @@ def without_each(problem: Problem, told: Rival) -> tuple[Rival, ...]:
         for index, own in enumerate(told.candidates)
     ]
     return tuple(fitted(problem, starts))
-
-
-def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
-    """Take a candidate out at a point."""
-    if candidate.effect is not None:
-        return point.without(candidate.name)
-    assert candidate.constant is not None
-    held = replace(point, freed=point.freed - {candidate.constant})
-    reach = problem.reach(held)
-    return replace(
-        held, shifts=np.clip(held.shifts, -reach * held.widths, reach * held.widths)
-    )

@@ -13,7 +13,7 @@ from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.inflation import deflated
 from gripperd.diagnose.fit.polish import Polished, polished
-from gripperd.diagnose.fit.rival import Rival, added, fitted, larger
+from gripperd.diagnose.fit.rival import Rival, added, fitted, larger, removed
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -27,7 +27,6 @@ from gripperd.diagnose.search.rivalry import (
     Contest,
     Place,
     needed,
-    removed,
     without_each,
 )
 from gripperd.diagnose.search.step_response import closes_responses, with_responses

@@ -221,6 +221,20 @@ def test_no_misfit_within_chance_excuses_a_rival(
     assert told.equivalents == ((("twin",) if kept else ()),)
 
 
+@pytest.mark.parametrize(("sweeps", "kept"), [(4, True), (5, False)])
+def test_in_few_sweeps_a_rival_may_be_further_behind(
+    problem: Problem, sweeps: int, *, kept: bool
+) -> None:
+    """By 4 nat: no whole sweep is left out that could tell the two apart."""
+    found = _found(problem, RUB)
+    best = found.best
+    rival = Rival((TWIN,), replace(best.fit, cost=best.fit.cost + 2 * 4.0))
+    few = replace(problem, courses=problem.courses[:sweeps])
+    places = (Place(found.null, (rival,)),)
+    told = standing_in(replace(found, problem=few), Contest(best, places))
+    assert told.equivalents == ((("twin",) if kept else ()),)
+
+
 def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
     # Friction shows in the force alone, and a valve that is off in the pressure alone.
     short = 0.016 * 4.4 / 500
