@@ -55,4 +55,7 @@ def _paths(effects: Iterable[AnyEffect]) -> Iterator[tuple[str, str]]:
                 yield f"{ADJUSTED}{part}.{name}_{end}_{unit}", f"{part}.{name}_{end}"
     for effect in effects:
         for name, key in keys_of_effect(effect).items():
-            yield f"{effect.name}.{key}", f"effects.{effect.name}.{name}"
+            path = f"effects.{effect.name}.{name}"
+            yield f"{effect.name}.{key}", path
+            # One that the model had already was adjusted as its constants were.
+            yield f"{ADJUSTED}effects.{effect.name}.{key}", path

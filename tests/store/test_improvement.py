@@ -231,6 +231,9 @@ def test_an_effect_of_the_model_gets_the_size_that_was_found(
     assert version.model.tolerances[path] == pytest.approx(estimate.std, rel=1e-3)
     # Its number is as round as that of any constant.
     assert threshold.pressure == round(threshold.pressure, 2)
+    # A wider muscle with more of a threshold pulls as hard.
+    known = load_model(tmp_path / "1.yaml").correlations
+    assert known["muscle.diameter", path] > 0.1
 
 
 @pytest.mark.parametrize(
