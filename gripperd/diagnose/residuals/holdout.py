@@ -38,8 +38,6 @@ MARGIN = 0.02
 """Share of a range by which a sweep may go further than all others. [-]"""
 FASTER = 1.5
 """Times the speed of all others from which a sweep alone shows what speed does. [-]"""
-AT_ONCE = 0.1
-"""Time in which a command leaps, or all but leaps. [s]"""
 QUICKLY = 0.9
 """Quantile that stands for the speed of a sweep: at a corner any may leap. [-]"""
 
@@ -89,8 +87,7 @@ def _spared(problem: Problem) -> set[int]:
     jaws = [index for index in shown if _opens(courses[index])]
     grasps = [index for index in shown if _gripped(courses[index])]
     few = 0 < len(grasps) < FEW_JAWS
-    kept = _fastest(courses, "pressure") | _quickest(courses)
-    kept |= set(grasps if few else [])
+    kept = _fastest(courses, "pressure") | set(grasps if few else [])
     after = [index for index in shown if index > 0]
     later = [index for index in after if index not in kept] or after
     columns, inner = _inner(courses, later)
@@ -236,29 +233,10 @@ def within(courses: Sequence[Course], columns: Sequence[str] = CONDITIONS) -> li
 
 def _fastest(courses: Sequence[Course], name: str) -> set[int]:
     """Give the sweep in which an input is faster than in all others by far, if any."""
-    return _far_ahead([_pace(course, name) for course in courses])
-
-
-def _quickest(courses: Sequence[Course]) -> set[int]:
-    """Give the sweep whose command goes further at once than all others', if any.
-
-    It rests for most of its time, but how a regulator follows a leap is seen there.
-    """
-    return _far_ahead([_leap(course) for course in courses])
-
-
-def _far_ahead(paces: Sequence[float]) -> set[int]:
-    others = _others_most(np.array(paces))
-    alone = (np.array(paces) > FASTER * others) & (others > 0)
+    pace = np.array([_pace(course, name) for course in courses])
+    others = _others_most(pace)
+    alone = (pace > FASTER * others) & (others > 0)
     return set(np.flatnonzero(alone).tolist())
-
-
-def _leap(course: Course) -> float:
-    """How far a command goes at once, or in a sample that takes longer. [A]."""
-    current = course.column("current")
-    behind = np.searchsorted(course.time, course.time - AT_ONCE, side="right") - 1
-    behind = np.clip(behind, 0, np.maximum(np.arange(len(course)) - 1, 0))
-    return float(np.nanmax(np.abs(current - current[behind]), initial=0.0))
 
 
 def _pace(course: Course, name: str) -> float:

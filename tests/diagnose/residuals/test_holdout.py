@@ -265,29 +265,6 @@ def test_the_only_sweep_of_fast_pressure_stays_though_jaws_press_in_it(
     assert last not in split(_faster(problem, {last}, 9.0, "pressure")).runs
 
 
-def _waiting(problem: Problem, samples: int, names: set[str]) -> Problem:
-    """The same, with a command that waits in some sweeps, and leaps to catch up."""
-
-    def leapt(course: Course) -> Course:
-        current = course.column("current").copy()
-        current[10 : 10 + samples] = current[10]
-        return replace(course, measured={**course.measured, "current": current})
-
-    courses = (leapt(one) if one.run in names else one for one in problem.courses)
-    return replace(problem, courses=tuple(courses))
-
-
-@pytest.mark.parametrize(
-    ("names", "samples", "is_spared"),
-    [(set(), 0, True), ({"c"}, 10, False), ({"c"}, 1, True), ({"a", "c"}, 10, True)],
-)
-def test_the_only_sweep_in_which_the_command_leaps_stays(
-    blank: Problem, names: set[str], samples: int, *, is_spared: bool
-) -> None:
-    """It goes no further than in others, and its pressure is no faster."""
-    assert ("c" in split(_waiting(blank, samples, names)).runs) is is_spared
-
-
 @pytest.mark.parametrize("left_away", ["b", "c", "b2"])
 @pytest.mark.parametrize("fast", ["d", "e", "f"])
 def test_without_the_only_fast_sweep_another_is_spared(
