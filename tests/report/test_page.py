@@ -98,6 +98,27 @@ def test_it_shows_where_and_how_much_better(text: str, figure: str) -> None:
     assert f'<figure id="{figure}">' in text
 
 
+@pytest.mark.parametrize(
+    ("verdict", "said"),
+    [
+        (Verdict.NONE, "No stretch of the recording is off by more than its noise."),
+        (Verdict.NAMED, "No single stretch is off by more than chance"),
+    ],
+)
+def test_that_no_stretch_is_off_alone_is_not_that_nothing_is(
+    creep: Diagnosis, verdict: Verdict, said: str
+) -> None:
+    text = written(replace(creep, verdict=verdict, where=()))
+    assert text.count(" stretch is") + text.count("No stretch of") == 1
+    assert said in text
+
+
+def test_a_stretch_says_which_way_it_went(text: str) -> None:
+    """The muscle creeps under load most as it lengthens."""
+    assert ">way</th>" in text
+    assert ">extending</td>" in text
+
+
 def test_the_gap_is_four_numbers(text: str, creep: Diagnosis) -> None:
     assert creep.main is not None
     gap = creep.gaps[creep.main]
