@@ -31,7 +31,7 @@ RUBBER = 5.0
 muscle pulls so many times harder at 4 bar, 7 % shorter than at rest. [-]"""
 
 WORKING_PRESSURE = 300e3
-"""Gauge pressure whose pull at rest length creeps by its shares at any power. [Pa]"""
+"""Gauge pressure whose pull at rest length creeps by its shares at any growth. [Pa]"""
 
 
 class Creeping(StrEnum):
@@ -53,18 +53,19 @@ class Creep(InMuscle):
 
     .. math:: F = F_0 - c \sum_{i=0}^{2} a_i (u - u_i), \quad
               \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
-              u = q_0 (q / q_0)^n - 5 b F_s(h), \quad
+              u = q |q / q_0|^g - 5 b F_s(h), \quad
               q = p \left[A(0) + l (A(h) - A(0))\right], \quad
               q_0 = 300 kPa \, A(0), \quad c = 1
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when it pulls as at rest length; and with a power n of it [2]_. Of what the stretch
-    of the rubber takes of it by eq. (5), b has a share: 1/5 when that creeps as the
-    pull does, more when it creeps more, below 0 when it relaxes. A bladder that passes
-    the pressure on late has ``u = p`` and pulls at the length of now, ``c = A(h)``, so
-    that a travel under a settled pressure calls nothing up. One that relaxes under its
-    own stretch alone has ``u = 5 F_s(h)``. Once settled it adds nothing. A record that
-    begins under a load goes on from a wait under it, which may have been long.
+    when it pulls as at rest length; and with a growth g beyond it [2]_. Of what the
+    stretch of the rubber takes of it by eq. (5), b has a share: 1/5 when that creeps as
+    the pull does, more when it creeps more, below 0 when it relaxes. A bladder that
+    passes the pressure on late has ``u = p`` and pulls at the length of now,
+    ``c = A(h)``, so that a travel under a settled pressure calls nothing up. One that
+    relaxes under its own stretch alone has ``u = 5 F_s(h)``. Once settled it adds
+    nothing. A record that begins under a load goes on from a wait under it, which may
+    have been long.
     """
 
     name: ClassVar[str] = "creep"
@@ -84,7 +85,7 @@ class Creep(InMuscle):
 
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         dict.fromkeys(
-            (Creeping.PRESSURE, Creeping.RUBBER), ("leverage", "stretch", "power")
+            (Creeping.PRESSURE, Creeping.RUBBER), ("leverage", "stretch", "growth")
         )
     )
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
@@ -110,8 +111,11 @@ class Creep(InMuscle):
     stretch: float = shape(unit=None, starts=(0.0,), low=-4.0, high=4.0)
     """How much of the stretch of the rubber creeps beside the pull, b. [-]"""
 
-    power: float = shape(unit=None, starts=(1.0,), low=0.7, high=2.5)
-    """Power of the pull that creeps, n: above 1 it creeps more under a load. [-]"""
+    growth: float = shape(
+        unit=None, starts=(0.0, 1.0), low=0.0, high=1.5, switches=True
+    )
+    """By how much more than in proportion to the pull it creeps, g: its power less 1;
+    0 for in proportion. [-]"""
 
     of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
     """What comes late."""
@@ -146,10 +150,8 @@ class Creep(InMuscle):
             return _stretched(track)
         rest = track.muscle.pull_area(0.0)
         pull = track.pressure * (rest + self.leverage * (track.pull_area - rest))
-        if self.power == 1:
-            return np.asarray(pull)
-        working = WORKING_PRESSURE * rest
-        return np.sign(pull) * working * np.abs(pull / working) ** self.power
+        grown = np.abs(pull / (WORKING_PRESSURE * rest)) ** self.growth
+        return np.asarray(pull * grown)
 
 
 def _stretched(track: Track) -> Array:

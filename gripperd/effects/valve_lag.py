@@ -61,7 +61,7 @@ class ValveLag(InValve):
     """What orifice and choke hold up, 100 kPa away; the rest the regulator. [0..1]"""
     choked: float = shape(unit=None, starts=(0.5,), low=0.0, high=1.0)
     """The choke's share of that. [0..1]"""
-    sonic: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    sonic: float = shape(unit=None, starts=(0.0, 1.0), low=0.0, high=1.0, switches=True)
     """Share of the exhaust that goes with the pressure in the muscle. [0..1]"""
 
     def rest(self) -> Array:

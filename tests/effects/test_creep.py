@@ -55,16 +55,16 @@ def test_rubber_may_creep_more_than_in_proportion_to_its_load(
     """By its shares at 3 bar; at half or twice the load by a quarter or four times."""
     pressure = np.where(TIME > 0, bar * 1e5, 0.0)
     at_three = left_of(3e5 * float(muscle.pull_area(0.0)))
-    found = late(muscle, replace(CREEP, power=2.0), pressure)
+    found = late(muscle, replace(CREEP, growth=1.0), pressure)
     assert found[1:] == pytest.approx((bar / 3) ** 2 * at_three[1:], rel=1e-6)
 
 
-def test_rubber_that_pushes_creeps_the_other_way_by_the_same_power(
+def test_rubber_that_pushes_creeps_the_other_way_as_much_more(
     muscle: Muscle,
 ) -> None:
     """Past its full stroke the pull of a braid is a push."""
     step = np.diff(TIME, prepend=0.0)
-    effect = replace(CREEP, power=2.0)
+    effect = replace(CREEP, growth=1.0)
 
     def at(pressure: float) -> Array:
         track = track_of(

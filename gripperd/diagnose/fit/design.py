@@ -86,14 +86,11 @@ def design(problem: Problem, point: Point, listed: Sequence[Candidate]) -> Desig
     slopes = sensitivities(problem, point, base)
     build = _Builder(problem, base.expected)
     starts = (point.shifts / point.widths).tolist()
-    for start, width, reach, response in zip(
-        starts,
-        point.widths.tolist(),
-        problem.reach(point).tolist(),
-        slopes,
-        strict=True,
+    lows, highs = (each.tolist() for each in problem.ends(point))
+    for start, width, low, high, response in zip(
+        starts, point.widths.tolist(), lows, highs, slopes, strict=True
     ):
-        build.add(response, width, start, (-reach, reach))
+        build.add(response, width, start, (low, high))
     nuisance = np.arange(build.width, dtype=np.intp)
     acting = tuple(
         _acting(problem, point, effect, base, build) for effect in point.effects

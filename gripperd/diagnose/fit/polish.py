@@ -156,10 +156,10 @@ def bounds(
     problem: Problem, point: Point, coordinates: Sequence[Coordinate]
 ) -> tuple[Array, Array]:
     """Least and largest of constants, in widths, and coordinates, in units."""
-    reach = problem.reach(point)
-    low = np.array([c.low / c.unit for c in coordinates])
-    high = np.array([c.high / c.unit for c in coordinates])
-    return np.concatenate([-reach, low]), np.concatenate([reach, high])
+    low, high = problem.ends(point)
+    lows = np.array([c.low / c.unit for c in coordinates])
+    highs = np.array([c.high / c.unit for c in coordinates])
+    return np.concatenate([low, lows]), np.concatenate([high, highs])
 
 
 def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
@@ -201,10 +201,7 @@ def _moved(
         bounded = min(max(value * coordinate.unit, coordinate.low), coordinate.high)
         effect = acting[coordinate.effect]
         acting[coordinate.effect] = replace(effect, **{coordinate.parameter: bounded})
-    reach = problem.reach(point)
-    shifts = np.clip(vector[:count], -reach, reach) * point.widths
-    # Beyond what could be made at all nothing changes, and no slope leads back.
-    shifts = np.clip(shifts, *problem.makable)
+    shifts = np.clip(vector[:count], *problem.ends(point)) * point.widths
     return replace(point, shifts=shifts, effects=tuple(acting.values()))
 
 

@@ -103,14 +103,20 @@ class Problem:
             reach[list(point.freed)] = NUISANCE
         return reach
 
-    @cached_property
-    def makable(self) -> tuple[Array, Array]:
-        """Shifts within which each constant could be made at all, in sigma."""
-        ends = [
-            [(limit - one.nominal) / one.sigma for limit in one.limits]
-            for one in self.constants
-        ]
-        low, high = np.array(ends).reshape(-1, 2).T
+    def ends(self, point: Point) -> tuple[Array, Array]:
+        """Between which each constant may be off, in widths of its prior.
+
+        Past the bound of a size of an effect nothing changes, and no slope leads back.
+        """
+        reach = self.reach(point)
+        low, high = -reach, reach.copy()
+        for place, one in enumerate(self.constants):
+            if one.effect is not None:
+                width = one.sigma * float(point.widths[place])
+                least, most = ((end - one.nominal) / width for end in one.limits)
+                low[place], high[place] = (
+                    max(low[place], least), min(high[place], most),
+                )  # fmt: skip
         return low, high
 
     def explanation(self, point: Point) -> Explanation:
