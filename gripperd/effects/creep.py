@@ -4,9 +4,6 @@ References
 ----------
 .. [1] J. D. Ferry, "Viscoelastic Properties of Polymers", 3rd ed., Wiley, 1980,
        chapter 1: generalised Maxwell element, a series of exponentials (Prony series).
-.. [2] R. A. Schapery, "On the characterization of nonlinear viscoelastic materials",
-       Polym. Eng. Sci. 9(4), 295-310, 1969: what the memory follows grows with a power
-       of the load, its times do not.
 """
 
 from collections.abc import Mapping
@@ -30,9 +27,6 @@ RUBBER = 5.0
 """Times the force of eq. (5) of which the shares of a bladder are told: the reference
 muscle pulls so many times harder at 4 bar, 7 % shorter than at rest. [-]"""
 
-WORKING_PRESSURE = 300e3
-"""Gauge pressure whose pull at rest length creeps by its shares at any growth. [Pa]"""
-
 
 class Creeping(StrEnum):
     """What comes late."""
@@ -53,19 +47,16 @@ class Creep(InMuscle):
 
     .. math:: F = F_0 - c \sum_{i=0}^{2} a_i (u - u_i), \quad
               \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
-              u = q |q / q_0|^g - 5 b F_s(h), \quad
-              q = p \left[A(0) + l (A(h) - A(0))\right], \quad
-              q_0 = 300 kPa \, A(0), \quad c = 1
+              u = p \left[A(0) + l (A(h) - A(0))\right] - 5 b F_s(h), \quad c = 1
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
-    when it pulls as at rest length; and with a growth g beyond it [2]_. Of what the
-    stretch of the rubber takes of it by eq. (5), b has a share: 1/5 when that creeps as
-    the pull does, more when it creeps more, below 0 when it relaxes. A bladder that
-    passes the pressure on late has ``u = p`` and pulls at the length of now,
-    ``c = A(h)``, so that a travel under a settled pressure calls nothing up. One that
-    relaxes under its own stretch alone has ``u = 5 F_s(h)``. Once settled it adds
-    nothing. A record that begins under a load goes on from a wait under it, which may
-    have been long.
+    when it pulls as at rest length. Of what the stretch of the rubber takes of it by
+    eq. (5), b has a share: 1/5 when that creeps as the pull does, more when it creeps
+    more, below 0 when it relaxes. A bladder that passes the pressure on late has
+    ``u = p`` and pulls at the length of now, ``c = A(h)``, so that a travel under a
+    settled pressure calls nothing up. One that relaxes under its own stretch alone has
+    ``u = 5 F_s(h)``. Once settled it adds nothing. A record that begins under a load
+    goes on from a wait under it, which may have been long.
     """
 
     name: ClassVar[str] = "creep"
@@ -84,9 +75,7 @@ class Creep(InMuscle):
     )
 
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
-        dict.fromkeys(
-            (Creeping.PRESSURE, Creeping.RUBBER), ("leverage", "stretch", "growth")
-        )
+        dict.fromkeys((Creeping.PRESSURE, Creeping.RUBBER), ("leverage", "stretch"))
     )
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
         {Creeping.RUBBER: "rubber_elasticity"}
@@ -110,12 +99,6 @@ class Creep(InMuscle):
 
     stretch: float = shape(unit=None, starts=(0.0,), low=-4.0, high=4.0)
     """How much of the stretch of the rubber creeps beside the pull, b. [-]"""
-
-    growth: float = shape(
-        unit=None, starts=(0.0, 1.0), low=0.0, high=1.5, switches=True
-    )
-    """By how much more than in proportion to the pull it creeps, g: its power less 1;
-    0 for in proportion. [-]"""
 
     of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
     """What comes late."""
@@ -149,9 +132,8 @@ class Creep(InMuscle):
         if self.of is Creeping.RUBBER:
             return _stretched(track)
         rest = track.muscle.pull_area(0.0)
-        pull = track.pressure * (rest + self.leverage * (track.pull_area - rest))
-        grown = np.abs(pull / (WORKING_PRESSURE * rest)) ** self.growth
-        return np.asarray(pull * grown)
+        area = rest + self.leverage * (track.pull_area - rest)
+        return np.asarray(track.pressure * area)
 
 
 def _stretched(track: Track) -> Array:

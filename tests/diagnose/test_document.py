@@ -140,7 +140,7 @@ def test_what_is_hidden_is_named_with_the_keys_of_a_model_file(
     (effect,) = said["effects"]
     assert (effect["name"], effect["stage"]) == ("creep", "muscle")
     assert effect["parameters"].keys() == {
-        "fast", "medium", "slow", "time_s", "leverage", "fresh", "stretch", "growth",
+        "fast", "medium", "slow", "time_s", "leverage", "fresh", "stretch",
     }  # fmt: skip
 
 

@@ -48,39 +48,6 @@ def test_a_record_under_pressure_goes_on_where_the_wait_before_it_ended(
     assert found == pytest.approx(expected, rel=1e-6)
 
 
-@pytest.mark.parametrize("bar", [1.5, 6.0])
-def test_rubber_may_creep_more_than_in_proportion_to_its_load(
-    muscle: Muscle, bar: float
-) -> None:
-    """By its shares at 3 bar; at half or twice the load by a quarter or four times."""
-    pressure = np.where(TIME > 0, bar * 1e5, 0.0)
-    at_three = left_of(3e5 * float(muscle.pull_area(0.0)))
-    found = late(muscle, replace(CREEP, growth=1.0), pressure)
-    assert found[1:] == pytest.approx((bar / 3) ** 2 * at_three[1:], rel=1e-6)
-
-
-def test_rubber_that_pushes_creeps_the_other_way_as_much_more(
-    muscle: Muscle,
-) -> None:
-    """Past its full stroke the pull of a braid is a push."""
-    step = np.diff(TIME, prepend=0.0)
-    effect = replace(CREEP, growth=1.0)
-
-    def at(pressure: float) -> Array:
-        track = track_of(
-            muscle,
-            time=TIME,
-            step=step,
-            pressure=np.where(TIME > 0, pressure, 0.0),
-            contraction=0.4,
-        )
-        return effect.along(np.zeros_like(TIME), track, effect.rest())
-
-    assert muscle.pull_area(0.4) < 0
-    assert (at(4e5)[1:20] > 0).all()
-    assert at(4e5) == pytest.approx(4 * at(2e5))
-
-
 SHORTENED = np.where(TIME > 0, 0.1, 0.0)
 
 

@@ -46,7 +46,6 @@ def test_constants_tolerances_and_effects_are_told_in_the_units_of_the_file(
         Change("effects.creep.leverage", None, 1.0),
         Change("effects.creep.fresh", None, 0.0),
         Change("effects.creep.stretch", None, 0.0),
-        Change("effects.creep.growth", None, 0.0),
         Change("effects.creep.of", None, "pull"),
     )
 

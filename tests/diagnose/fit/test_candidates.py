@@ -109,8 +109,8 @@ def test_the_forms_of_an_effect_are_all_combinations_of_its_starts(name: str) ->
     wanted = 2 if EFFECTS[name].one_sided else 1
     for one in known.values():
         wanted *= len(one.starts or one.choices or (None,))
-    # Of the three that may creep, only the pull has two leverages and may grow.
-    wanted -= wanted // 2 if name == "creep" else 0
+    # Of the three that may creep, only the pull has two leverages.
+    wanted -= wanted // 3 if name == "creep" else 0
     # Only what trails has a spread, and only what wakes a speed.
     wanted = 2 + 1 + 2 if name == "valve_dead_band" else wanted
     # Only a regulator that suppresses its zero brings its offset by and by, or in part.
