@@ -104,7 +104,5 @@ def removed(problem: Problem, point: Point, candidate: Candidate) -> Point:
         return point.without(candidate.name)
     assert candidate.constant is not None
     held = replace(point, freed=point.freed - {candidate.constant})
-    reach = problem.reach(held)
-    return replace(
-        held, shifts=np.clip(held.shifts, -reach * held.widths, reach * held.widths)
-    )
+    low, high = (end * held.widths for end in problem.ends(held))
+    return replace(held, shifts=np.clip(held.shifts, low, high))

@@ -41,8 +41,8 @@ def sensitivities(
     base = base or Base.of(problem, point)
     here = base.expected
     # At its upper end a constant moves back: a sign of friction is 1 there for good.
-    ends = problem.reach(point) * point.widths
-    steps = np.where(point.shifts + STEP > ends, -STEP, STEP)
+    _, ends = problem.ends(point)
+    steps = np.where(point.shifts + STEP > ends * point.widths, -STEP, STEP)
     # Constants of one sweep each are moved together: none feels the others.
     own = [i for i, one in enumerate(problem.constants) if one.course is not None]
     apart = _moved(problem, point, base, own, steps) if own else []

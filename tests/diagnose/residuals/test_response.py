@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.residuals.constants import Constant
 from gripperd.diagnose.residuals.explanation import moves
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -92,6 +93,28 @@ def test_a_sign_at_rest_is_felt_at_either_end_of_its_reach(
         # A sign of 1.04 counts as 1, so that a third of the step goes nowhere.
         assert np.abs(one).sum() >= 0.5 * np.abs(other).sum()
         assert (one * other).sum() >= 0.0
+
+
+def test_a_size_of_an_effect_is_felt_at_its_highest(blank: Problem) -> None:
+    """There no step leads on, but one back."""
+    rubs = CoulombFriction(magnitude=290.0)
+    size = Constant(
+        "effects.coulomb_friction.magnitude_N", 290.0, 29.0, stated=False, effect=rubs
+    )
+    problem = replace(
+        blank,
+        model=replace(blank.model, effects=(*blank.model.effects, rubs)),
+        constants=(size,),
+    )
+    # Of what may be 300 N at most; two tolerances would be 348.
+    ends = np.concatenate(problem.ends(Point(np.zeros(1))))
+    np.testing.assert_allclose(ends, [-2.0, 10 / 29])
+    slopes = [
+        np.concatenate(sensitivities(problem, Point(np.array([shift])))[0])
+        for shift in (0.0, 10 / 29)
+    ]
+    assert slopes[0].any()
+    np.testing.assert_allclose(slopes[1], slopes[0])
 
 
 def test_a_response_is_that_of_one_scale(blank: Problem, start: Point) -> None:
