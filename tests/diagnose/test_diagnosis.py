@@ -90,6 +90,10 @@ def test_the_gap_closes_down_to_the_noise(told: Diagnosis) -> None:
 def test_it_tells_where(told: Diagnosis) -> None:
     assert told.where
     assert {finding.signal for finding in told.where} == {Signal.FORCE}
+    # In sweeps that were searched, and in those held out.
+    places, held_out = {finding.run for finding in told.where}, {*told.held_out}
+    assert places & held_out
+    assert places - held_out
 
 
 def test_it_tells_what_could_not_be_seen(told: Diagnosis) -> None:
