@@ -9,13 +9,11 @@ import numpy as np
 
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import WRONG
-from gripperd.diagnose.residuals.constants import Constant
+from gripperd.diagnose.residuals.constants import PARTS, Constant
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.verdict.key import Key, keys_of, known_key, public
 from gripperd.model.track import Array
 
-OWNERS = frozenset({"muscle", "valve", "gripper", "effects"})
-"""Parts of a model file that have constants."""
 WIDTH, ZERO = "gripper.open_width", "zero.opening"
 """No recording tells the width of open jaws from the zero of their sensor, so that the
 width is told by the sensor that there is."""
@@ -79,7 +77,7 @@ def constants(diagnosis: Diagnosis) -> Iterator[tuple[Constant, float]]:
 
 def is_owned(constant: Constant) -> bool:
     """Whether a constant of a fit has a place in a model file."""
-    return constant.path.partition(".")[0] in OWNERS
+    return constant.path.partition(".")[0] in PARTS
 
 
 def _numbers(diagnosis: Diagnosis) -> Iterator[Number]:
