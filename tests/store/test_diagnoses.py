@@ -86,7 +86,13 @@ def found(
     kept: Diagnoses, settings: Settings, provenance: Provenance
 ) -> StoredDiagnosis:
     """A diagnosis that has named creep."""
-    one = asked("7", Status.SUCCEEDED)
+    return named("7", kept, settings, provenance)
+
+
+def named(
+    digit: str, kept: Diagnoses, settings: Settings, provenance: Provenance
+) -> StoredDiagnosis:
+    one = asked(digit, Status.SUCCEEDED)
     kept.put(one)
     place = kept.place(one.id)
     (place / MODEL).write_text(model_text(settings.grippers["g0"].model))
@@ -131,11 +137,7 @@ def test_it_is_accepted_once(
 def test_two_diagnoses_that_say_the_same_of_one_recording_are_one_version(
     kept: Diagnoses, settings: Settings, found: StoredDiagnosis, provenance: Provenance
 ) -> None:
-    again = asked("8", Status.SUCCEEDED)
-    kept.put(again)
-    place = kept.place(again.id)
-    (place / MODEL).write_text(model_text(settings.grippers["g0"].model))
-    write_improvement(better(settings), provenance, place)
+    again = named("8", kept, settings, provenance)
     names = [accept(one, kept, settings, LATER).name for one in (found, again)]
     assert names == ["reference-1", "reference-1"]
     assert kept.get(again.id).kept_as == "reference-1"
