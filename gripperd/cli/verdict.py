@@ -145,7 +145,7 @@ def _extrapolation(diagnosis: Diagnosis) -> Group | None:
         return None
     runs = ", ".join(beyond.runs)
     if beyond.gaps == diagnosis.gaps:
-        return Group(Text(f"{runs}: none but such sweeps were held out, as above"))
+        return Group(Text(f"{runs}: nothing else was held out, so it is the gap above"))
     return Group(Text(runs), _gaps(diagnosis, beyond.gaps))
 
 

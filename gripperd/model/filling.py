@@ -50,8 +50,9 @@ def filled(signal: Array, step: Array, law: Filling, state: Array) -> Array:
     r"""Pressure of a volume that a regulator fills, or empties, to what it is told.
 
     At a distance ``e`` it nears by ``g e / (T (1 + o sqrt(e) + c e))``: through an
-    orifice as the square root, and choked no faster than ``1 / (T c)``, exact for a
-    signal that is constant between samples. As it fills ``g = 1``; as it empties
+    orifice as the square root, and choked no faster than ``1 / (T c)``. As it fills
+    ``g = 1``, and that is exact for a signal that is constant between samples. As it
+    empties g is taken at the middle of each quarter of a time constant:
 
     .. math:: g = 1 - s + s \frac{p + p_a}{300\,\mathrm{kPa} + p_a}
         \sqrt{1 - \max\left(0, \frac{p_a / (p + p_a) - b}{1 - b}\right)^2}

@@ -93,4 +93,4 @@ def test_what_lies_beyond_all_others_is_told_once(
     beyond = Extrapolation(("a (last quarter)",), creep.gaps)
     text = told(replace(creep, extrapolation=beyond), capsys)
     assert text.count("noise floor") == 1
-    assert "a (last quarter): none but such sweeps were held out" in text
+    assert "a (last quarter): nothing else was held out" in text

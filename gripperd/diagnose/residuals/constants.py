@@ -66,7 +66,7 @@ class Constant:
 
     path: str
     """As in tolerances, such as ``muscle.diameter``; of an effect that the model has
-    with its unit, such as ``effects.creep.time_s``."""
+    with its unit, such as ``effects.coulomb_friction.magnitude_N``."""
     nominal: float
     sigma: float
     stated: bool

@@ -76,7 +76,7 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
         (sweep, _separations(problem, sweep, one, other))
         for sweep in _sweeps(problem, top, far)
     ]
-    # One that tells whichever is true; else one that does if the stiffer of both is.
+    # One that tells whichever is true; else one that does if what bends more is.
     for does, rise in (("separates", min), ("may separate", max)):
         rates = [
             (rise(rises) / float(sweep.time[-1]), sweep)
