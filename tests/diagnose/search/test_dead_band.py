@@ -86,7 +86,7 @@ def test_what_lies_within_the_band_is_not_held_against_what_is_named() -> None:
     assert conclude(told.split.train, told.found, told.contest).signals == ()
 
 
-@pytest.mark.parametrize("band", [10e3, 15e3])
+@pytest.mark.parametrize("band", [9e3, 11e3, 15e3])
 def test_which_treads_one_that_rests_on_each_will_follow_is_foretold(
     band: float,
 ) -> None:
