@@ -14,6 +14,7 @@ from gripperd.diagnose.readings.agreement import beyond_use
 from gripperd.diagnose.readings.believed import believed
 from gripperd.diagnose.readings.clock import with_prompt_command
 from gripperd.diagnose.readings.course import is_table
+from gripperd.diagnose.readings.jaws import quantities, with_remarks
 from gripperd.diagnose.readings.recording import Contradiction, Recording
 from gripperd.diagnose.readings.stale import without_stale
 from gripperd.diagnose.readings.thinning import thinned
@@ -146,12 +147,13 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         contradicted = beyond_use(recording)
         recording = recording if contradicted else believed(recording)
         recording = with_prompt_command(without_stale(recording))
-        recording = thinned(recording, MOST_ROWS)
+        recording = with_remarks(thinned(recording, MOST_ROWS), model.linkage)
         problem = problem_of(recording, model, tolerances)
         parts = split(replace(problem, processes=processes))
         if contradicted:
             return _without_verdict(recording, contradicted, parts, seed)
-        listed, untested = candidates(library, parts.train, _columns(recording))
+        columns = quantities(recording, model.linkage)
+        listed, untested = candidates(library, parts.train, columns)
         rng = np.random.default_rng(seed)
         selection = selected(parts, listed, tolerances, rng, progress)
         progress("verdict", 0.9)
@@ -283,11 +285,6 @@ def _without_verdict(
         found=Found(parts.train, null, null, (), 0.0, {}, (), np.empty(0)),
         contest=Contest(null),
     )
-
-
-def _columns(recording: Recording) -> frozenset[str]:
-    columns = {name for run in recording.runs for name in run.columns if run.has(name)}
-    return frozenset(columns | ({"contraction"} if "length" in columns else set()))
 
 
 def _next(problem: Problem, best: Contest) -> Proposal | None:

@@ -70,7 +70,7 @@ def document(diagnosis: Diagnosis, *, model: str, program: str) -> Document:
         "constants": [
             _constant(one)
             for one in recalibrated(diagnosis.found.problem, diagnosis.told)
-            if one.constant.moves.intersection(diagnosis.found.problem.signals)
+            if diagnosis.found.problem.shown(one.constant.moves)
         ],
         "untested": dict(diagnosis.untested),
         "contradictions": [_contradiction(one) for one in recording.contradictions],

@@ -9,6 +9,7 @@ from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.jaws import through_jaws, told_by_jaws
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.coherent import check_coherent
 from gripperd.diagnose.residuals.constants import constants
@@ -49,9 +50,14 @@ def problem_of(
     InputError
         When the recording cannot be about such a model.
     """
-    sweeps, noises = courses(recording, model.muscle.rest_length)
+    length = model.muscle.rest_length
     if not recording.has("contraction") and recording.has("length"):
-        model = replace(model, told_length=model.muscle.rest_length)
+        model = replace(model, told_length=length)
+    elif told_by_jaws(recording, model.linkage):
+        assert model.linkage is not None
+        recording = through_jaws(recording, model.linkage, length)
+        model = replace(model, told_length=length, told_by=model.linkage)
+    sweeps, noises = courses(recording, length)
     if any(sweep.yields for sweep in sweeps):
         # What is held there moves after all, and its friction turns round.
         model = replace(model, at_rest=AtRest.INFLATING)

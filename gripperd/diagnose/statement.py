@@ -150,7 +150,9 @@ def _nothing(diagnosis: Diagnosis) -> str:
     unseen = [
         f"the {name}"
         for name in UNJUDGED
-        if Signal(name) not in diagnosis.gaps and _was_there(diagnosis, name)
+        if Signal(name) not in diagnosis.gaps
+        and _was_there(diagnosis, name)
+        and not (name == "opening" and diagnosis.split.train.model.told_by)
     ]
     if unseen:
         gap = f"{gap}; {listed(unseen)} could not be judged"
@@ -177,7 +179,7 @@ def _within(diagnosis: Diagnosis) -> str:
     told = [
         one
         for one in recalibrated(diagnosis.found.problem, diagnosis.told)
-        if gap.signal in one.constant.moves
+        if gap.signal in diagnosis.found.problem.shown(one.constant.moves)
     ]
     if not told:
         return ""

@@ -20,6 +20,11 @@ LINKS = (
     ("length", "opening"),
     ("force", "contraction", "grip"),
     ("force", "length", "grip"),
+    ("force", "opening", "grip"),
+    ("pressure", "contraction", "grip"),
+    ("pressure", "length", "grip"),
+    ("pressure", "opening", "grip"),
+    ("pressure", "opening", "force"),
 )
 """What must be measured together to compare one step of the chain."""
 FEWEST = 20

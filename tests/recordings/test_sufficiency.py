@@ -29,6 +29,11 @@ def _columns(*names: str, rows: int = 20) -> dict[str, list[object]]:
         ("length_mm", "opening_mm"),
         ("force_N", "contraction", "grip_N"),
         ("force_N", "length_mm", "grip_N"),
+        ("force_N", "opening_mm", "grip_N"),
+        ("pressure_kPa", "contraction", "grip_N"),
+        ("pressure_kPa", "length_mm", "grip_N"),
+        ("pressure_kPa", "opening_mm", "grip_N"),
+        ("pressure_kPa", "opening_mm", "force_N"),
     ],
 )
 def test_two_neighbours_of_the_chain_are_enough(
@@ -48,7 +53,6 @@ def test_two_neighbours_of_the_chain_are_enough(
         ("current_mA", "force_N", "contraction"),
         ("pressure_kPa", "grip_N"),
         ("current_mA", "opening_mm", "grip_N"),
-        ("pressure_kPa", "opening_mm", "grip_N"),
     ],
 )
 def test_points_that_are_no_neighbours_are_refused(

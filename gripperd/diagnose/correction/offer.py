@@ -22,7 +22,7 @@ from gripperd.diagnose.readings.columns import Column
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.regressors import REGRESSORS, inputs, ranges, varied
+from gripperd.diagnose.residuals.regressors import inputs, listed, ranges, varied
 from gripperd.diagnose.verdict.gap import STRETCH, by_signal
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -144,7 +144,7 @@ def offers(
         train, test = (_of(part, signal) for part in (parts.train, parts.test))
         if not train.blocks or not test.blocks:
             continue
-        if chosen := varied(train, test, REGRESSORS[signal]):
+        if chosen := varied(train, test, listed(train, signal)):
             found = _learnt(train, signal, chosen, base)
             left, rival = (by_signal(test, point)[signal] for point in (base, nearest))
             worth = _worth(left, rival, found.at(inputs(test, chosen)))
@@ -183,7 +183,7 @@ def _learnt(
         usual=usual,
         spread=spread,
         ends=np.array([measured.min(0), measured.max(0)]),
-        held=ranges(train, [x for x in REGRESSORS[signal] if x not in regressors]),
+        held=ranges(train, [x for x in listed(train, signal) if x not in regressors]),
         wander=wander,
     )
 

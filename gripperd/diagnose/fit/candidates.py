@@ -11,8 +11,9 @@ from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.readings.travel import travel
 from gripperd.diagnose.residuals.constants import PARTS
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.model.effect import Effect, Stage
+from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import in_use, parameters, words
+from gripperd.model.track import Array
 
 LINEAR = ("valve_offset", "valve_gain")
 SAME: Mapping[str, str] = MappingProxyType({
@@ -24,6 +25,8 @@ NAMES: Mapping[str, str] = MappingProxyType({"contraction": "length"})
 TURNED = 0.05
 """Way back, as a share of the range, from which a pressure or a current has turned:
 eight times the noise of common sensors, 0.2 to 0.6 %, and more. [-]"""
+PULLED = (Signal.FORCE, Signal.GRIP)
+"""What goes with the pull of the muscle."""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -94,39 +97,68 @@ def candidates(
 
 def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> str:
     """Why an effect cannot be seen here; empty when it can."""
-    lacking = sorted(kind.needs - columns)
+    plain = kind()
+    told = columns
+    if problem.is_blind and plain.stage is not Stage.SENSOR:
+        told |= {Signal.FORCE.value}
+    lacking = sorted(kind.needs - told)
     if lacking:
         return f"{', '.join(lacking)} not measured"
-    plain = kind()
-    elsewhere = plain.stage in (Stage.SENSOR, Stage.GRIPPER)
-    if not elsewhere and plain.signal not in problem.signals:
+    if not (plain.stage is Stage.SENSOR or _is_compared(problem, plain)):
         return f"no sample of the {plain.signal.value} can be compared"
     basis = kind.basis
     if basis and basis not in {effect.name for effect in problem.model.effects}:
         return f"{basis} is not in the model"
-    if kind.turns and not _turned(problem, kind.turns):
-        return f"the {NAMES.get(kind.turns, kind.turns)} never went both ways"
+    if kind.turns and not _turned(problem, kind.turns, plain.signal):
+        gripped = " under a grip" if _is_felt(problem, plain.signal) else ""
+        return f"the {NAMES.get(kind.turns, kind.turns)} never went both ways{gripped}"
     if is_table(problem.courses) and (kind.timed or plain.rest().size):
         return "the recording is a table of settled points, without time"
     return ""
 
 
-def _turned(problem: Problem, quantity: str) -> bool:
-    """Whether something went both ways, be it in one sweep or in two."""
+def _is_compared(problem: Problem, effect: Effect) -> bool:
+    """Whether the signal of an effect is compared with what it follows from."""
+    if effect.stage is Stage.GRIPPER:
+        return problem.model.told_by is None or effect.signal in problem.signals
+    return bool(problem.shown(frozenset({effect.signal})))
+
+
+def _turned(problem: Problem, quantity: str, signal: Signal) -> bool:
+    """Whether something went both ways, be it in one sweep or in two.
+
+    Jaws that hold on hide the way back, and what rubs is as good as a constant.
+    """
+    courses = problem.courses
     if quantity == "contraction":
-        ways = [course.direction for course in problem.courses]
+        ways = [course.direction for course in courses]
     else:
-        levels = [course.level(quantity) for course in problem.courses]
-        known = [level[np.isfinite(level)] for level in levels]
-        least = TURNED * float(np.ptp(np.concatenate(known)))
-        ways = [travel(level, least) for level in known if level.size]
+        levels = [course.level(quantity) for course in courses]
+        known = np.concatenate(levels)
+        least = TURNED * float(np.ptp(known[np.isfinite(known)]))
+        ways = [_way(level, least) for level in levels]
+    if _is_felt(problem, signal):
+        blocks = [block for block in problem.blocks if block.signal in PULLED]
+        ways = [ways[block.course][block.good] for block in blocks]
     return {-1.0, 1.0} <= set(np.concatenate(ways))
+
+
+def _is_felt(problem: Problem, signal: Signal) -> bool:
+    """Whether a signal is known but while jaws press on something."""
+    return problem.is_blind and signal in PULLED
+
+
+def _way(level: Array, least: float) -> Array:
+    """Sign of the way of what is known, 0 where it is not."""
+    known, sign = np.isfinite(level), np.zeros_like(level)
+    sign[known] = travel(level[known], least) if known.any() else 0.0
+    return sign
 
 
 def _wrong_constants(
     library: Mapping[str, type[Effect]], problem: Problem
 ) -> Iterator[Candidate]:
-    travelled = _turned(problem, "contraction")
+    travelled = _turned(problem, "contraction", Signal.FORCE)
     for index, constant in enumerate(problem.constants):
         is_part = constant.path.partition(".")[0] in PARTS
         unseen = constant.path == "muscle.friction_coefficient" and not travelled

@@ -170,18 +170,35 @@ def problem_prior(
 
     It is told from the signal in which the effect is loudest. A sensor is wrong by a
     share of its own full scale, however small what is made of its readings: the grip
-    is what the spring leaves of a pull several times as large.
+    is what the spring leaves of a pull several times as large. So is a muscle of which
+    nothing but the grip is known.
     """
+    scales = problem.full_scale
+    if problem.is_blind and effect.stage is Stage.MUSCLE:
+        scales = scales | {Signal.GRIP: _pull_of_grip(problem)}
     squares: dict[Signal, float] = {}
     counts: dict[Signal, int] = {}
     for block, column in zip(problem.blocks, response, strict=True):
         squares[block.signal] = squares.get(block.signal, 0.0) + float(column @ column)
         counts[block.signal] = counts.get(block.signal, 0) + column.size
-    loud = {s: (squares[s] / counts[s]) ** 0.5 / problem.full_scale[s] for s in squares}
+    loud = {s: (squares[s] / counts[s]) ** 0.5 / scales[s] for s in squares}
     loudest = max(loud.values())
     if effect.stage is Stage.SENSOR:
         loudest = loud.get(effect.signal) or loudest
     return TYPICAL / loudest if np.isfinite(loudest) and loudest > FAINT else None
+
+
+def _pull_of_grip(problem: Problem) -> float:
+    """Largest pull behind a grip, as each jaw would have it without a spring. [N]."""
+    linkage, length = problem.model.linkage, problem.model.muscle.rest_length
+    assert linkage is not None
+    ways = [
+        problem.courses[block.course].level("contraction")[block.good]
+        for block in problem.blocks
+        if block.signal is Signal.GRIP
+    ]
+    spring = np.max(linkage.spring_force(np.concatenate(ways), length))
+    return problem.full_scale[Signal.GRIP] + float(spring) / linkage.ratio
 
 
 def limits(problem: Problem, effect: Effect, name: str) -> tuple[float, float]:

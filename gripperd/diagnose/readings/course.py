@@ -51,6 +51,12 @@ class Course:
         """Number of samples."""
         return self.time.size
 
+    @cached_property
+    def is_blind(self) -> bool:
+        """Whether no cell told what the muscle pulled with, but the jaws a grip."""
+        grip, force = (np.isfinite(self.column(one)) for one in ("grip", "force"))
+        return bool(grip.any() and not force.any())
+
     def column(self, name: str) -> Array:
         """Measured column, NaN when there is none."""
         if name in self.measured:

@@ -50,10 +50,36 @@ class Explanation:
     """Lag that any regulator has. [s]"""
     told_length: float | None = None
     """Rest length to which the recorded contraction refers, when another. [m]"""
+    told_by: Linkage | None = None
+    """That through which an opening was told as a contraction, when it was."""
 
     def sensors(self) -> "tuple[SensorEffect, ...]":
         """Effects that change what is read."""
         return tuple(effect for effect in self.effects if acts_in_sensor(effect))
+
+    def tells(self, signal: Signal) -> bool:
+        """Whether there are parts that a signal follows from."""
+        match signal:
+            case Signal.PRESSURE:
+                return self.regulator is not None
+            case Signal.OPENING:
+                return self.linkage is not None and self.told_by is None
+            case Signal.GRIP:
+                return self.linkage is not None
+            case _:
+                return True
+
+    def felt(self, moved: frozenset[Signal], *, is_blind: bool) -> frozenset[Signal]:
+        """Signals that change with some.
+
+        A contraction that the jaws tell goes with the opening, and the pull with it; a
+        pull that no cell tells is felt in the grip.
+        """
+        if self.told_by is not None and Signal.OPENING in moved:
+            moved |= {Signal.FORCE, Signal.GRIP}
+        if is_blind and Signal.FORCE in moved:
+            moved |= {Signal.GRIP}
+        return moved
 
     def with_effect(self, effect: Effect) -> "Explanation":
         """Put an effect in, in the place of one of its name if there is."""

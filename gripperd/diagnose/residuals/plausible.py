@@ -15,9 +15,11 @@ BELIEVED = (0.27, 3.5)
 within a factor of three, the nearest mistaken unit (lbf for N) is off by 4.4. [-]"""
 NEAR = 1.5
 """Factor within which a column is off by that of a unit. [-]"""
+FORCES = {"lbf": 0.2248, "kgf": 0.1020, "kN": 1e-3, "mN": 1e3}
 MISTAKEN = {
     Signal.PRESSURE: {"bar": 1e-2, "psi": 0.1450, "MPa": 1e-3, "Pa": 1e3},
-    Signal.FORCE: {"lbf": 0.2248, "kgf": 0.1020, "kN": 1e-3, "mN": 1e3},
+    Signal.FORCE: FORCES,
+    Signal.GRIP: FORCES,
 }
 """Along the chain: a pressure in bar makes the force look wrong as well."""
 
@@ -36,8 +38,9 @@ def check_plausible(problem: Problem, name: str) -> None:
         message = (
             f"{name}: no stage of the model can be compared with what was measured;"
             " a run needs current and pressure, or pressure, contraction and force,"
-            " or, with a gripper in the model, contraction and opening, or force,"
-            " contraction and grip, in 4 samples or more that lie beside no step"
+            " or, with a gripper in the model, contraction and opening, or grip,"
+            " contraction or opening, and force or pressure, in 4 samples or more that"
+            " lie beside no step"
         )
         raise InputError(message)
     expected = problem.expected(problem.explanation(_nominal(problem)))
@@ -104,7 +107,7 @@ def _check_unit(signal: Signal, name: str, measured: Array, expected: Array) -> 
     ]
     if ratio < 0:
         causes.insert(0, "with the wrong sign")
-    causes.append("of another muscle")
+    causes.append(f"of another {'gripper' if signal is Signal.GRIP else 'muscle'}")
     message = (
         f"{name}: column {column} is {ratio:.3g} times what the model gives,"
         f" believable is {low:g} to {high:g}; is it {', or '.join(causes)}?"

@@ -53,7 +53,7 @@ class Problem:
         found = []
         for index, course in enumerate(self.courses):
             for signal in predictable(course):
-                if signal not in self.noises or not self._has_part(signal):
+                if signal not in self.noises or not self.model.tells(signal):
                     continue
                 good = usable(course, signal)
                 if signal is Signal.FORCE:
@@ -74,12 +74,18 @@ class Problem:
         noise, course = self.noises[block.signal], self.courses[block.course]
         return within_band(block, course, regulator, noise, self.band)
 
-    def _has_part(self, signal: Signal) -> bool:
-        if signal is Signal.PRESSURE:
-            return self.model.regulator is not None
-        if signal in (Signal.OPENING, Signal.GRIP):
-            return self.model.linkage is not None
-        return True
+    @cached_property
+    def is_blind(self) -> bool:
+        """Whether the pull of the muscle is known but by a grip, in some sweep."""
+        return any(
+            block.signal is Signal.GRIP and self.courses[block.course].is_blind
+            for block in self.blocks
+        )
+
+    def shown(self, moved: frozenset[Signal]) -> frozenset[Signal]:
+        """Signals explained in which a change of some signals shows."""
+        felt = self.model.felt(moved, is_blind=self.is_blind)
+        return felt & frozenset(self.signals)
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -150,9 +156,10 @@ class Problem:
         tracks
             What happened, when at hand.
         """
+        felt = self.shown(signals) if signals else frozenset()
         found: dict[tuple[int, Signal], Array] = {}
         for number, (places, shown, whole) in enumerate(self.groups):
-            wanted = [one for one in shown if not signals or one in signals]
+            wanted = [one for one in shown if not signals or one in felt]
             if not wanted:
                 continue
             track = tracks[number] if tracks else track_of(explanation, whole, *places)

@@ -36,6 +36,12 @@ REGRESSORS: Mapping[Signal, tuple[Column, ...]] = MappingProxyType(
 """Quantities of each signal. The clock is none: a correction has to hold tomorrow."""
 
 
+def listed(problem: Problem, signal: Signal) -> tuple[Column, ...]:
+    """What a correction of a signal may depend on: a grip without a cell, as a pull."""
+    blind = signal is Signal.GRIP and problem.is_blind
+    return REGRESSORS[Signal.FORCE if blind else signal]
+
+
 def varied(
     train: Problem, test: Problem, listed: Sequence[Column]
 ) -> tuple[Column, ...]:

@@ -65,7 +65,8 @@ def _moved(
     there = problem.explanation(replace(point, shifts=shifts))
     moving = [problem.constants[i] for i in indices]
     signals = frozenset[Signal]().union(*(one.moves for one in moving))
-    tracks = None if any(one.reads for one in moving) else base.tracks
+    told = problem.model.told_by is not None
+    tracks = None if told or any(one.reads for one in moving) else base.tracks
     return problem.expected(there, signals, tracks)
 
 

@@ -3,10 +3,13 @@
 Each stage starts from what was measured before it, so an error upstream does not
 smear: current to pressure; pressure and contraction to force; contraction to opening;
 force and contraction to grip. A wrong sensor shows in every stage that touches it.
+Without a cell in the muscle the grip shows what it pulls with as well: from pressure
+and contraction to grip is one step.
 """
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -78,7 +81,8 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
     if signal is Signal.FORCE:
         track = _strained(explanation, track)
     if signal is Signal.GRIP:
-        track = _leaned(track)
+        made = partial(_happened, explanation, Signal.FORCE)
+        track = _leaned(_pulled(track, made, _rounds(explanation)))
     value = _START[signal](explanation, track)
     for effect in explanation.effects:
         if effect.signal is signal and effect.stage is not Stage.SENSOR:
@@ -89,6 +93,21 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
     # Neither does a regulator suck, nor do jaws pull at what they hold.
     bounded = signal in (Signal.PRESSURE, Signal.GRIP)
     return np.maximum(value, 0.0) if bounded else value
+
+
+def _pulled(track: Runs, pull: Callable[[Runs], Array], rounds: int) -> Runs:
+    """Fill in the pull of runs that no cell tells, with what the muscle makes of it."""
+    untold = track.each(
+        lambda force, _: np.full_like(force, np.isnan(force).all()), track.force
+    ).astype(bool)
+    for _ in range(rounds if untold.any() else 0):
+        track = replace(track, force=np.where(untold, pull(track), track.force))
+    return track
+
+
+def _rounds(explanation: Explanation) -> int:
+    """Times that a pull is looked at: a mount stretches by what it had before."""
+    return 2 if any(map(acts_in_gripper, explanation.effects)) else 1
 
 
 def _leaned(track: Runs) -> Runs:
@@ -202,8 +221,6 @@ def passed_on(
     if signal is Signal.PRESSURE:
         return 0.0
     length = "length" if "length" in course.smooth else "contraction"
-    if signal is Signal.GRIP:
-        track = _leaned(track)
     sharp = replace(track, contraction=course.level(length))
     if signal is Signal.OPENING:
         read = np.where(course.resting, course.column("contraction"), sharp.contraction)
@@ -211,8 +228,17 @@ def passed_on(
     if signal is Signal.GRIP:
         beside = course.column("force") - course.level("force")
         sharp = replace(sharp, force=track.force + beside)
+        sharp, track = (_felt(explanation, one) for one in (sharp, track))
+        track = _leaned(track)
+        sharp = replace(sharp, direction=track.direction)
     rough, smooth = (at_once(explanation, one, signal) for one in (sharp, track))
     return np.nan_to_num(rough - smooth)
+
+
+def _felt(explanation: Explanation, track: Runs) -> Runs:
+    """Give a pull that no cell tells as it follows without memory."""
+    rounds = _rounds(explanation)
+    return _pulled(track, lambda one: at_once(explanation, one, Signal.FORCE), rounds)
 
 
 def at_once(explanation: Explanation, track: Runs, signal: Signal) -> Array:

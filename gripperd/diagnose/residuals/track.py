@@ -8,7 +8,8 @@ import numpy as np
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.residuals.explanation import AtRest, Explanation
 from gripperd.diagnose.residuals.runs import Runs
-from gripperd.model.effect import SensorEffect, Signal
+from gripperd.model.effect import SensorEffect, Signal, acts_in_gripper
+from gripperd.model.loaded import LoadedLinkage
 from gripperd.model.memory import stop
 from gripperd.model.track import Array
 
@@ -140,7 +141,20 @@ def _contraction(explanation: Explanation, course: Course) -> Array:
     read = read - skew * course.rate("contraction")
     if explanation.told_length is None:
         return read
+    if explanation.told_by is not None:
+        opening = explanation.told_by.opening(read, explanation.told_length)
+        return _of_opening(explanation, course, np.asarray(opening))
     return 1 - (1 - read) * explanation.told_length / explanation.muscle.rest_length
+
+
+def _of_opening(explanation: Explanation, course: Course, opening: Array) -> Array:
+    """Contraction at which the jaws are so far apart. [-]."""
+    assert explanation.linkage is not None
+    effects = tuple(filter(acts_in_gripper, explanation.effects))
+    grip = np.nan_to_num(course.level("grip"))
+    length = explanation.muscle.rest_length
+    loaded = LoadedLinkage(explanation.linkage, effects)
+    return np.asarray(loaded.contraction(opening, grip, course.direction, length))
 
 
 def directions(explanation: Explanation, course: Course, *places: int) -> Array:

@@ -51,26 +51,33 @@ def usable(course: Course, signal: Signal) -> Mask:
     good = np.isfinite(measured)
     for name in INPUTS[signal]:
         good &= np.isfinite(course.level(name)) & ~_bridged(course, name)
+    # A pull that no cell tells is followed in the grip.
+    pulls = signal is Signal.FORCE or (signal is Signal.GRIP and course.is_blind)
     if signal is Signal.GRIP:
-        # Without contact the jaws are moved by the muscle alone and press on nothing.
-        good &= (measured > PRESSED * course.hush("grip")) & np.isfinite(
-            course.column("force")
-        )
-        good &= ~_turning(leaning(course.level("force")))
+        good &= _pressing(course)
     sweeps = "pressure" in course.smooth and not is_table((course,))
-    if sweeps and signal in (Signal.FORCE, Signal.PRESSURE):
+    if sweeps and (pulls or signal is Signal.PRESSURE):
         good &= ~_transients(course)
     if sweeps and signal is Signal.PRESSURE:
         good &= ~_arriving(course)
-    if signal is Signal.FORCE:
+    if pulls:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
         good &= ~_winding(course)
         if course.direction.any():
             # What may have been gone there and back had its friction as well.
             good &= ~_unsure(course) & ~_missed(course, "contraction")
-    if sweeps and signal is Signal.FORCE:
+    if sweeps and pulls:
         good &= ~stuck(course) & ~late(course) & ~_inflating(course)
     return good
+
+
+def _pressing(course: Course) -> Mask:
+    """Samples in which jaws press, by a load that does not turn round."""
+    # Without contact the jaws are moved by the muscle alone and press on nothing.
+    good = course.column("grip") > PRESSED * course.hush("grip")
+    name = "pressure" if course.is_blind else "force"
+    good &= np.isfinite(course.column(name)) & np.isfinite(course.level(name))
+    return good & ~_turning(leaning(course.level(name))) if good.any() else good
 
 
 def _bridged(course: Course, name: str) -> Mask:

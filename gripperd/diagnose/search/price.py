@@ -215,4 +215,4 @@ def acts_on(problem: Problem, candidate: Candidate) -> frozenset[Signal]:
     else:
         assert candidate.effect is not None
         moved = moves(candidate.effect) or frozenset(problem.signals)
-    return moved & frozenset(problem.signals)
+    return problem.shown(moved)

@@ -13,7 +13,7 @@ def main_signal(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
     """Give the signal of the first effect, else the one recalibration leaves worst.
 
     A sensor that errs shows in every stage that it touches, in one most. Without any
-    effect the story is about the force.
+    effect the story is about the force, or the grip where no cell tells it.
 
     Parameters
     ----------
@@ -26,8 +26,11 @@ def main_signal(best: Contest, judged: Mapping[Signal, Gap]) -> Signal | None:
     for effect in effects:
         if effect.stage is not Stage.SENSOR and effect.signal in judged:
             return effect.signal
-    if Signal.FORCE in judged and not effects:
-        return Signal.FORCE
+        if effect.stage is Stage.MUSCLE and Signal.GRIP in judged:
+            return Signal.GRIP
+    for pulled in (Signal.FORCE, Signal.GRIP) if not effects else ():
+        if pulled in judged:
+            return pulled
     return max(judged, key=lambda one: judged[one].left_open, default=None)
 
 
