@@ -20,6 +20,7 @@ from gripperd.diagnose.residuals.loudness import audible, noises_of
 from gripperd.diagnose.residuals.plausible import check_judged, check_plausible
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.slack import zero_of_slack
 from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.model.effect import Signal
 
@@ -66,7 +67,9 @@ def problem_of(
         for signal in INPUTS
         if signal.value in noises
     }
-    rough = Problem(sweeps, model, (), loud, _slack(sweeps, loud))
+    taut = _slack(sweeps, loud)
+    taut += zero_of_slack(Problem(sweeps, model, (), loud), taut)
+    rough = Problem(sweeps, model, (), loud, taut)
     check_plausible(rough, recording.name)
     check_coherent(rough, recording.name)
     # What is left out later must not even tell, by its misfit, how loud noise is.

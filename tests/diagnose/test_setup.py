@@ -4,17 +4,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
+from gripperd.diagnose.verdict.conclude import Verdict
+from gripperd.effects import EFFECTS
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.held import COMPLIANCE, held
 from tests.diagnose.small import (
     MODEL,
+    Hidden,
     Moment,
     altered,
     nothing,
@@ -70,6 +74,36 @@ def test_below_the_noise_a_cord_may_be_slack() -> None:
         ]
     )
     assert left.min() > problem.slack
+
+
+def _cord(reading: Callable[[Moment], Array]) -> Hidden:
+    """A muscle that cannot push, on a cell that reads so much more than it pulls."""
+    return lambda moment: (
+        np.maximum(textbook(moment), 0.0) - textbook(moment) + reading(moment)
+    )
+
+
+@pytest.mark.parametrize(
+    ("reading", "name"),
+    [
+        (lambda moment: 40.0 + 0.0 * moment.time, "force_sensor_bias"),
+        (lambda moment: 40.0 * moment.time / 500.0, "force_sensor_drift"),
+    ],
+)
+def test_a_cell_whose_zero_is_off_pulls_at_no_slack_cord(
+    reading: Callable[[Moment], Array], name: str
+) -> None:
+    told = recording(_cord(reading))
+    assert 40.0 < problem_of(told, MODEL, {}).slack < 75.0
+    rivals = (name, "threshold_pressure", "nonlinear_elasticity", "tapered_ends")
+    found = diagnose(told, MODEL, {}, {one: EFFECTS[one] for one in rivals})
+    assert [entry.name for entry in found.named] == [name]
+    assert found.verdict is Verdict.NAMED
+
+
+def test_what_grows_with_the_length_is_no_zero_of_a_cell() -> None:
+    stretched = recording(_cord(lambda moment: 20.0 + 300.0 * moment.contraction))
+    assert 0 < problem_of(stretched, MODEL, {}).slack < 40.0
 
 
 def test_neighbours_in_a_table_are_no_repeats_of_each_other() -> None:

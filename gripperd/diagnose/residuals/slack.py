@@ -1,0 +1,63 @@
+"""A muscle that is slack: what its cell reads then is the zero of the cell.
+
+A muscle cannot push. Where its model says that it would, it hangs through, and a
+reading that is the same at all lengths, but for a drift, tells nothing of it.
+"""
+
+import numpy as np
+
+from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.effect import Signal
+
+PUSHES = 0.5
+"""Share of the force from which a muscle is taut by which it would have to push. [-]"""
+FEWEST = 20
+"""Readings that tell a zero."""
+SAME = 2.0
+"""Standard deviations of a reading within which they are the same. [-]"""
+NEAR = 0.5
+"""Share of the force from which a muscle is taut up to which a zero does not matter:
+what is read of a slack one hardly ever comes so far. [-]"""
+MOST = 0.1
+"""Share of the largest force by which the zero of a cell is off, at most. [-]"""
+
+
+def zero_of_slack(problem: Problem, taut: float) -> float:
+    """Tell what a cell reads of a muscle that hangs through, if it is above 0. [N].
+
+    Parameters
+    ----------
+    problem
+        At the nominal constants, with all its readings.
+    taut
+        Force from which a muscle is taut, were the zero right; -inf where it is held.
+        [N]
+
+    Returns
+    -------
+    The highest such reading; 0 where it is near 0, nothing hangs through, or readings
+    differ.
+    """
+    blocks = [
+        index for index, b in enumerate(problem.blocks) if b.signal is Signal.FORCE
+    ]
+    if not (np.isfinite(taut) and blocks):
+        return 0.0
+    point = Point(np.zeros(len(problem.constants)))
+    told = problem.expected(problem.explanation(point), frozenset({Signal.FORCE}))
+    expected, measured, time = (
+        np.concatenate([each[index] for index in blocks])
+        for each in (told, problem.measured, problem.times)
+    )
+    slack = expected < -PUSHES * taut
+    if slack.sum() < FEWEST:
+        return 0.0
+    clock = time[slack] - time[slack].mean()
+    line = np.column_stack([np.ones_like(clock), clock])
+    known = line @ np.linalg.lstsq(line, measured[slack], rcond=None)[0]
+    left = float(np.std(measured[slack] - known))
+    zero = float(np.max(known))
+    noise = problem.noises[Signal.FORCE].std
+    is_off = NEAR * taut < zero < MOST * problem.full_scale[Signal.FORCE]
+    return zero if is_off and left < SAME * noise else 0.0
