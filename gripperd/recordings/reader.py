@@ -40,7 +40,7 @@ def read_recording(path: Path) -> Recording:
     require_milliamperes(str(path), cut.runs)
     side = read_side_file(path.with_suffix(".yaml"), cut.runs)
     runs, rejected = screened(side.labelled(cut.runs))
-    require_enough(str(path), runs, rejected)
+    require_enough(str(path), runs, cut.rejected, rejected)
     return Recording(
         name=path.stem,
         digest=sha256(content).hexdigest(),

@@ -85,15 +85,30 @@ def require_milliamperes(source: str, runs: Sequence[Run]) -> None:
 
 
 def require_enough(
-    source: str, runs: Sequence[Run], rejected: Sequence[Rejection]
+    source: str,
+    runs: Sequence[Run],
+    dropped: Sequence[Rejection],
+    rejected: Sequence[Rejection],
 ) -> None:
     """Refuse a recording that links no two points of the chain often enough.
+
+    Parameters
+    ----------
+    source
+        The file.
+    runs
+        Screened.
+    dropped
+        Rows that are in none of them.
+    rejected
+        Readings of them that are not believed.
 
     Raises
     ------
     InputError
         Naming the columns that are missing, or how few rows are left.
     """
+    left_out = _left_out((*dropped, *rejected))
     there = {key for run in runs for key in run.columns if run.has(key)}
     if not any(there.issuperset(link) for link in LINKS):
         named = ", ".join(BY_QUANTITY[key].name for key in sorted(there - {"time"}))
@@ -102,15 +117,15 @@ def require_enough(
         )
         detail = (
             f"{source}: what was measured ({named or 'nothing'}) links no two points "
-            f"of the chain; needed at least: {choice}{_left_out(rejected)}"
+            f"of the chain; needed at least: {choice}{left_out}"
         )
         raise InputError(detail)
     usable = sum(int(_linked(run).sum()) for run in runs)
     if usable < FEWEST:
-        rows = sum(len(run) for run in runs)
+        rows = sum(len(run) for run in runs) + sum(one.count for one in dropped)
         detail = (
             f"{source}: {usable} of {rows} rows are usable; needed at least "
-            f"{FEWEST}{_left_out(rejected)}"
+            f"{FEWEST}{left_out}"
         )
         raise InputError(detail)
 

@@ -69,6 +69,14 @@ def test_nineteen_rows_are_too_few(write: Write, complaint: Complaint) -> None:
     assert message == "rig.csv: 19 of 19 rows are usable; needed at least 20"
 
 
+def test_rows_that_were_dropped_are_told(write: Write, complaint: Complaint) -> None:
+    stopped = good(60) | {"t_s": [0.0] * 50 + [float(row) for row in range(1, 11)]}
+    assert complaint(write(stopped)) == (
+        "rig.csv: 11 of 60 rows are usable; needed at least 20"
+        " (left out: 49 times t_s same time as before)"
+    )
+
+
 def test_rows_count_where_neighbours_were_measured_together(
     write: Write, complaint: Complaint
 ) -> None:
