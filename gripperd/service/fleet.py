@@ -47,20 +47,20 @@ class Fleet(Mapping[str, GripperSettings]):
     async def follow(self, name: str, model: str) -> GripperSettings:
         """Settings of a gripper that goes by a model, read if it is another.
 
-        A version that cannot be read is told once, and the one before stays.
+        While a version cannot be read, which is told once, the one before stays.
         """
-        if (
-            self._now[name].chain.name != model
-            and (name, model) not in self._unreadable
-        ):
+        if self._now[name].chain.name != model:
             try:
                 self._now[name] = await asyncio.to_thread(self._read, name, model)
+                self._unreadable.discard((name, model))
             except GripperdError as error:
-                self._unreadable.add((name, model))
-                log.warning(
-                    "a model cannot be followed", gripper=name, reason=str(error)
-                )
+                self._warn(name, model, str(error))
         return self._now[name]
+
+    def _warn(self, name: str, model: str, reason: str) -> None:
+        if (name, model) not in self._unreadable:
+            self._unreadable.add((name, model))
+            log.warning("a model cannot be followed", gripper=name, reason=reason)
 
     def _read(self, name: str, model: str) -> GripperSettings:
         loaded = self._loaded.grippers[name]

@@ -15,6 +15,7 @@ from gripperd.config.lineage import Added, Recorded
 from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.link.client import Client
+from gripperd.service.fleet import Fleet
 from gripperd.store import Version, Versions, versions_of
 from gripperd.store.activation import activation
 
@@ -233,6 +234,24 @@ def test_without_control_nothing_is_activated_and_predictions_go_on(
     refused = problem(lonely.post("/v1/models/0/activate"))
     assert (refused["status"], refused["retryable"]) == (503, True)
     assert predicted(lonely)[0] == "reference"
+
+
+def test_a_version_that_can_be_read_again_is_followed(
+    drawn_settings: Settings, stiffer: Version
+) -> None:
+    fleet = Fleet(drawn_settings)
+
+    def gone_by() -> str:
+        return asyncio.run(fleet.follow("g0", stiffer.name)).chain.name
+
+    file = Path(stiffer.model.source)
+    whole = file.read_text()
+    file.write_text(whole.replace("diameter_mm: 20.0", "diameter_mm: 25.0"))
+    try:
+        assert (gone_by(), gone_by()) == ("as-drawn", "as-drawn")
+    finally:
+        file.write_text(whole)
+    assert gone_by() == stiffer.name
 
 
 def test_a_version_that_somebody_else_let_control_take_up_is_followed(
