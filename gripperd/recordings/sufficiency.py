@@ -12,21 +12,15 @@ from gripperd.errors import InputError
 from gripperd.protocol.live_zero import BROKEN_ABOVE, BROKEN_BELOW
 from gripperd.units import MILLI
 
+LENGTHS = ("contraction", "length")
+WAYS = (*LENGTHS, "opening")
 LINKS = (
-    ("current", "pressure"),
-    ("pressure", "contraction", "force"),
-    ("pressure", "length", "force"),
-    ("contraction", "opening"),
-    ("length", "opening"),
-    ("force", "contraction", "grip"),
-    ("force", "length", "grip"),
-    ("force", "opening", "grip"),
-    ("pressure", "contraction", "grip"),
-    ("pressure", "length", "grip"),
-    ("pressure", "opening", "grip"),
-    ("pressure", "opening", "force"),
+    (("current",), ("pressure",)),
+    (("pressure",), WAYS, ("force",)),
+    (LENGTHS, ("opening",)),
+    (("force", "pressure"), WAYS, ("grip",)),
 )
-"""What must be measured together to compare one step of the chain."""
+"""What must be measured together to compare one step of the chain: one of each."""
 FEWEST = 20
 """Rows; fewer do not tell an effect from noise."""
 PERCENT = 0.25
@@ -110,11 +104,9 @@ def require_enough(
     """
     left_out = _left_out((*dropped, *rejected))
     there = {key for run in runs for key in run.columns if run.has(key)}
-    if not any(there.issuperset(link) for link in LINKS):
+    if not any(all(there.intersection(place) for place in link) for link in LINKS):
         named = ", ".join(BY_QUANTITY[key].name for key in sorted(there - {"time"}))
-        choice = "; or ".join(
-            " and ".join(BY_QUANTITY[key].name for key in link) for link in LINKS
-        )
+        choice = "; or ".join(" and ".join(map(_one_of, link)) for link in LINKS)
         detail = (
             f"{source}: what was measured ({named or 'nothing'}) links no two points "
             f"of the chain; needed at least: {choice}{left_out}"
@@ -130,6 +122,11 @@ def require_enough(
         raise InputError(detail)
 
 
+def _one_of(quantities: Sequence[str]) -> str:
+    names = [BY_QUANTITY[quantity].name for quantity in quantities]
+    return names[0] if len(names) == 1 else f"({' or '.join(names)})"
+
+
 def _left_out(rejected: Sequence[Rejection]) -> str:
     counts: Counter[str] = Counter()
     for entry in rejected:
@@ -142,6 +139,14 @@ def _linked(run: Run) -> NDArray[np.bool_]:
     """Rows in which at least one link is complete."""
     linked = np.zeros(len(run), dtype=np.bool_)
     for link in LINKS:
-        if all(key in run.columns for key in link):
-            linked |= np.isfinite([run.columns[key] for key in link]).all(axis=0)
+        linked |= np.all([_known(run, place) for place in link], axis=0)
     return linked
+
+
+def _known(run: Run, place: Sequence[str]) -> NDArray[np.bool_]:
+    """Rows in which one of some quantities was measured."""
+    known = np.zeros(len(run), dtype=np.bool_)
+    for key in place:
+        if key in run.columns:
+            known |= np.isfinite(run.columns[key])
+    return known
