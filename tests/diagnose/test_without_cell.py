@@ -9,7 +9,9 @@ from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
+from gripperd.errors import InputError
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 from gripperd.units import KILO, MILLI
 from tests.diagnose.small import (
     GRIP_NOISE,
@@ -22,6 +24,7 @@ from tests.diagnose.small import (
     Moment,
     nothing,
     textbook,
+    without,
 )
 
 SIZES = (65, 58, 41, 30, 58, 20, 72, 41)
@@ -34,12 +37,10 @@ BETWEEN = 60.0
 JAWS = replace(MODEL, linkage=LINKAGE)
 
 
-def tiring(moment: Moment) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def tiring(moment: Moment) -> Array:
     """A muscle that loses 5 % of its pull, the first grasps most of it."""
     grasps = moment.time[0] / BETWEEN
-    lost: np.ndarray[tuple[int], np.dtype[np.float64]] = textbook(moment) * (
-        0.05 * np.expm1(-grasps / 3)
-    )
+    lost: Array = textbook(moment) * (0.05 * np.expm1(-grasps / 3))
     return lost
 
 
@@ -65,9 +66,7 @@ def _grasp(place: int, hidden: Hidden) -> Run:
     grip = np.where(way == shut, np.fmax(pull - spring, 0.0) / 4.0, 0.0)
     random = np.random.default_rng([place, 7])
 
-    def read(
-        value: object, noise: float
-    ) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    def read(value: object, noise: float) -> Array:
         return np.asarray(value) + random.normal(0.0, noise, since.size)
 
     return Run(
@@ -101,6 +100,12 @@ def test_what_takes_the_place_of_a_sensor_is_told(sound: Diagnosis) -> None:
     assert sound.untested["force_sensor_gain"] == "force not measured"
     assert "opening" in sound.untested["linkage_backlash"]
     assert "both ways under a grip" in sound.untested["pressure_hysteresis"]
+
+
+def test_a_model_without_a_gripper_says_so() -> None:
+    valveless = without(gripped(nothing), "current")
+    with pytest.raises(InputError, match="the model has no gripper, so that opening"):
+        diagnose(valveless, MODEL, {}, EFFECTS)
 
 
 def test_a_muscle_that_tires_is_named_by_its_grip() -> None:

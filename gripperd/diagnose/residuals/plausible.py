@@ -37,11 +37,18 @@ def check_plausible(problem: Problem, name: str) -> None:
     if not problem.blocks:
         message = (
             f"{name}: no stage of the model can be compared with what was measured;"
-            " a run needs current and pressure, or pressure, contraction and force,"
-            " or, with a gripper in the model, contraction and opening, or grip,"
-            " contraction or opening, and force or pressure, in 4 samples or more that"
-            " lie beside no step"
+            " a run needs, in 4 samples or more that lie beside no step, current and"
+            " pressure; or pressure, contraction and force"
         )
+        if problem.model.linkage is None:
+            message += (
+                "; the model has no gripper, so that opening and grip say nothing"
+            )
+        else:
+            message += (
+                "; or contraction and opening; or contraction, grip, and force or"
+                " pressure; where no contraction was measured the opening tells it"
+            )
         raise InputError(message)
     expected = problem.expected(problem.explanation(_nominal(problem)))
     _check_alive(problem, name)
