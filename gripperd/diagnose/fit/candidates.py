@@ -9,7 +9,7 @@ import numpy as np
 
 from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.readings.travel import travel
-from gripperd.diagnose.residuals.constants import PARTS
+from gripperd.diagnose.residuals.constants import PARTS, PULLED
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import in_use, parameters, words
@@ -25,8 +25,6 @@ NAMES: Mapping[str, str] = MappingProxyType({"contraction": "length"})
 TURNED = 0.05
 """Way back, as a share of the range, from which a pressure or a current has turned:
 eight times the noise of common sensors, 0.2 to 0.6 %, and more. [-]"""
-PULLED = (Signal.FORCE, Signal.GRIP)
-"""What goes with the pull of the muscle."""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 

@@ -56,6 +56,8 @@ MUSCLE = (
 )  # fmt: skip
 PARTS = ("muscle", "valve", "gripper", "effects")
 """Parts of a model, with tolerances; the rest is how it was measured."""
+PULLED = frozenset({Signal.FORCE, Signal.GRIP})
+"""What goes with the pull of the muscle."""
 VALVE = ("pressure_low", "pressure_high")
 GRIPPER = ("open_width", "ratio", "spring_preload", "spring_rate")
 
@@ -135,7 +137,6 @@ _MADE_AT_ALL: Mapping[str, tuple[float, float]] = {
     "response.valve": (0.0, inf),
 }
 _JAWS = frozenset({Signal.OPENING, Signal.GRIP})
-_PULLED = frozenset({Signal.FORCE, Signal.GRIP})
 _LATER = frozenset(
     {"response.valve", "zero.opening", "zero.grip", "skew.opening", "skew.grip"}
 )
@@ -190,7 +191,7 @@ def constants(
     ]
     if explanation.regulator is not None and Signal.PRESSURE in full_scale:
         found.append(Constant("response.valve", RESPONSE, RESPONSE, stated=False))
-    skewed: tuple[str, ...] = SKEWED if _PULLED & full_scale.keys() else ()
+    skewed: tuple[str, ...] = SKEWED if PULLED & full_scale.keys() else ()
     skewed += tuple(signal.value for signal in full_scale if signal in _JAWS)
     found += [Constant(f"skew.{name}", 0.0, SKEW, stated=False) for name in skewed]
     found += [Constant(f"rest.{i}", 0.0, RESTING, stated=False) for i in resting]
