@@ -214,6 +214,7 @@ class Gripper:
             holding=self.hold.profile,
             link=self.link,
             model=self.chain.name,
+            model_digest=self.chain.digest,
             held=self._dispatch.keep.held,
             strongest=self.hold.strongest,
             regulation=self._dispatch.keep.state(measured),

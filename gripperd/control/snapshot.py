@@ -43,6 +43,8 @@ class GripperState:
     """``up``, or why there is none."""
     model: str
     """Name of the model that it goes by."""
+    model_digest: str
+    """What tells that from another of the same name."""
     held: Held | None = None
     """What is held and under which limits, where that is known."""
     strongest: float | None = None

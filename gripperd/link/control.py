@@ -19,7 +19,7 @@ from gripperd.link import faults, lease
 from gripperd.link.buses import BusDesk, ReadBuses, ReadTraffic
 from gripperd.link.frames import decode
 from gripperd.link.journal import Page, ReadJournal, page
-from gripperd.link.model import ModelMessage, chain_of
+from gripperd.link.model import ModelMessage, chain_of, model_message
 
 log = structlog.get_logger()
 
@@ -61,6 +61,12 @@ class ReadModules(msgspec.Struct, frozen=True, tag=True):
 
 class ReadState(msgspec.Struct, frozen=True, tag=True):
     """Ask for a :class:`GripperState`."""
+
+    gripper: str
+
+
+class ReadModel(msgspec.Struct, frozen=True, tag=True):
+    """Ask for the :class:`ModelMessage` that a gripper goes by."""
 
     gripper: str
 
@@ -135,6 +141,7 @@ class Disable(msgspec.Struct, frozen=True, tag=True):
 Request: TypeAlias = (
     ReadOverview
     | ReadState
+    | ReadModel
     | Submit
     | ReadCommand
     | ListCommands
@@ -181,11 +188,8 @@ class ControlDesk:
             return self._buses.respond(request)
         if isinstance(request, ReadModules):
             return {name: loop.facts for name, loop in self._loops.items()}
-        if isinstance(request, UseModel):
-            loops = [self._loop(name) for name in request.grippers]
-            swap([loop.gripper for loop in loops], chain_of(request.model))
-            log.info("model", grippers=request.grippers, model=request.model.name)
-            return [loop.state() for loop in loops]
+        if isinstance(request, ReadModel | UseModel):
+            return self._model(request)
         if isinstance(request, ReadJournal):
             return await self._page(request)
         loop = self._loop(request.gripper)
@@ -195,6 +199,14 @@ class ControlDesk:
         if isinstance(request, faults.Request):
             return faults.respond(request, loop.gripper, loop.present())
         return await _respond(request, loop)
+
+    def _model(self, request: ReadModel | UseModel) -> object:
+        if isinstance(request, ReadModel):
+            return model_message(self._loop(request.gripper).gripper.chain)
+        loops = [self._loop(name) for name in request.grippers]
+        swap([loop.gripper for loop in loops], chain_of(request.model))
+        log.info("model", grippers=request.grippers, model=request.model.name)
+        return [loop.state() for loop in loops]
 
     async def _page(self, request: ReadJournal) -> Page:
         loop, life = self._loop(request.gripper), self._started_at

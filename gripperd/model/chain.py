@@ -1,6 +1,6 @@
 """The whole chain: valve current and object size to grip force per jaw, and back."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite
@@ -8,6 +8,7 @@ from typing import Self
 
 from gripperd.errors import DomainError, InputError
 from gripperd.model.constant import moved, moved_among
+from gripperd.model.digest import digest
 from gripperd.model.effect import Direction, Effect, acts_in_gripper, acts_in_valve
 from gripperd.model.linkage import Linkage
 from gripperd.model.loaded import LoadedLinkage
@@ -52,6 +53,11 @@ class Chain:
         effects = tuple(filter(acts_in_gripper, self.effects))
         return LoadedLinkage(self.linkage, effects) if effects else None
 
+    @cached_property
+    def digest(self) -> str:
+        """What tells it from another of the same name."""
+        return digest(self)
+
     @property
     def muscle(self) -> Muscle:
         """Constants of the muscle."""
@@ -80,9 +86,8 @@ class Chain:
         if owner == "muscle":
             muscle = moved(self.muscle, constant, by)
             return replace(self, static=replace(self.static, muscle=muscle))
-        acting = {each.name for each in self.static.effects}
-        acting |= {each.name for each in self.effects}
-        if owner not in {f"effects.{name}" for name in acting}:
+        acting = {f"effects.{each.name}" for each in self.static.effects}
+        if owner not in acting | {f"effects.{each.name}" for each in self.effects}:
             raise KeyError(path)
         inside = moved_among(self.static.effects, path, by)
         static = replace(self.static, effects=inside)
@@ -265,15 +270,11 @@ class Chain:
 
         To first order, each derivative by a central difference of one sigma.
         """
-        changes = dict(self._changes(current, pressed, direction))
+        changes = {}
+        for path, pair in self._neighbours.items():
+            low, high = (each.grip_on(current, pressed, direction) for each in pair)
+            changes[path] = (high - low) / 2
         return combined(changes, self.correlations)
-
-    def _changes(
-        self, current: float, pressed: PressedObject, direction: Direction
-    ) -> Iterator[tuple[str, float]]:
-        for path, (less, more) in self._neighbours.items():
-            low = less.grip_on(current, pressed, direction)
-            yield path, (more.grip_on(current, pressed, direction) - low) / 2
 
     @cached_property
     def _neighbours(self) -> "dict[str, tuple[Chain, Chain]]":

@@ -4,6 +4,7 @@ from asyncio import to_thread
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from datetime import UTC, datetime
+from functools import partial
 from typing import Any
 
 from fastapi import FastAPI
@@ -28,7 +29,7 @@ from gripperd.service import (
 )
 from gripperd.service import recordings as recordings_resource
 from gripperd.service import settings as settings_resource
-from gripperd.service.context import Context, shared_states
+from gripperd.service.context import Context, gone_by, shared_states
 from gripperd.service.diagnosing import Diagnosing
 from gripperd.service.failures import answer_failures
 from gripperd.service.fleet import Fleet
@@ -99,7 +100,7 @@ def create_app(
         redirect_slashes=False,
         generate_unique_id_function=lambda route: route.name,
     )
-    fleet = Fleet(settings)
+    fleet = Fleet(settings, partial(gone_by, control))
     recordings = Recordings(settings.state_dir / "recordings")
     app.state.context = Context(
         settings=settings,

@@ -13,8 +13,18 @@ from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Machine
 from gripperd.errors import InputError, LinkError, NotFound, Refused
 from gripperd.link.client import Client
-from gripperd.link.control import Cancel, Disable, Enable, ReadState, Stop, Submit
+from gripperd.link.control import (
+    Cancel,
+    Disable,
+    Enable,
+    ReadModel,
+    ReadState,
+    Stop,
+    Submit,
+)
 from gripperd.link.faults import Reset
+from gripperd.link.model import ModelMessage, chain_of
+from gripperd.model import Chain
 from gripperd.service.diagnosing import Diagnosing
 from gripperd.service.fleet import Fleet
 from gripperd.service.library import ProfileLibrary
@@ -146,10 +156,15 @@ def shared_states(fleet: Fleet, control: Client) -> Shared[Seen]:
 
     async def ask(name: str) -> Seen:
         state = await control.ask(ReadState(name), GripperState, STATE_WITHIN)
-        document = state_document(state, await fleet.follow(name, state.model))
+        document = state_document(state, await fleet.follow(state))
         return Seen(document, document.model_dump_json().encode())
 
     return Shared(ask, STATE_LASTS)
+
+
+async def gone_by(control: Client, name: str) -> Chain:
+    """Ask for the model that control goes by; raises what asking raises."""
+    return chain_of(await control.ask(ReadModel(name), ModelMessage, STATE_WITHIN))
 
 
 async def _context(request: Request) -> Context:

@@ -145,6 +145,10 @@ def _written(daemon: Context, asked: DiagnosisRequest) -> StoredDiagnosis:
         daemon.recordings.get(asked.recording)
     with _key("model"):
         version = versions.get(asked.model)
+    if version.number == 0 and daemon.fleet.edited(gripper):
+        message = f"control goes by another {version.name}: its file was edited"
+        hints = ("start the daemon again",)
+        raise Refused(message, code="model-changed", hints=hints)
     found = StoredDiagnosis(
         id=uuid4().hex,
         recording=asked.recording,

@@ -1,25 +1,28 @@
 """The grippers, each with the model that control goes by."""
 
-import asyncio
-from collections.abc import Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
+from dataclasses import replace
 
 import structlog
 
 from gripperd.config import GripperSettings, Settings
+from gripperd.control.snapshot import GripperState
 from gripperd.errors import GripperdError
-from gripperd.store import versions_of, with_active_models
-from gripperd.store.active import with_model
+from gripperd.model import Chain
+from gripperd.store import with_active_models
 
 log = structlog.get_logger()
 
 
 class Fleet(Mapping[str, GripperSettings]):
-    """Settings of every gripper by its name; they follow what control says.
+    """Settings of every gripper by its name; their chains follow what control says.
 
     Parameters
     ----------
     settings
         As they were loaded.
+    ask
+        Gets the model that control goes by, of a gripper by its name.
 
     Raises
     ------
@@ -27,10 +30,15 @@ class Fleet(Mapping[str, GripperSettings]):
         An active version is damaged, or a gripper cannot go by it.
     """
 
-    def __init__(self, settings: Settings) -> None:
-        self._loaded = settings
+    def __init__(
+        self, settings: Settings, ask: Callable[[str], Awaitable[Chain]]
+    ) -> None:
+        self._ask = ask
+        self._configured = {
+            name: gripper.model.chain() for name, gripper in settings.grippers.items()
+        }
         self._now = dict(with_active_models(settings).grippers)
-        self._unreadable: set[tuple[str, str]] = set()
+        self._told: set[str] = set()
 
     def __getitem__(self, name: str) -> GripperSettings:
         """Settings of one gripper."""
@@ -44,24 +52,33 @@ class Fleet(Mapping[str, GripperSettings]):
         """Number of grippers."""
         return len(self._now)
 
-    async def follow(self, name: str, model: str) -> GripperSettings:
-        """Settings of a gripper that goes by a model, read if it is another.
+    async def follow(self, state: GripperState) -> GripperSettings:
+        """Settings of a gripper as it is now, asked for if its model is another.
 
-        While a version cannot be read, which is told once, the one before stays.
+        While control does not give it, which is told once, the one before stays.
         """
-        if self._now[name].chain.name != model:
+        name = state.name
+        if self._now[name].chain.digest != state.model_digest:
             try:
-                self._now[name] = await asyncio.to_thread(self._read, name, model)
-                self._unreadable.discard((name, model))
+                chain = await self._ask(name)
             except GripperdError as error:
-                self._warn(name, model, str(error))
+                self._warn(state, str(error))
+            else:
+                self._now[name] = replace(self._now[name], chain=chain)
+                if self.edited(name):
+                    log.warning("a model was edited", gripper=name, model=chain.name)
         return self._now[name]
 
-    def _warn(self, name: str, model: str, reason: str) -> None:
-        if (name, model) not in self._unreadable:
-            self._unreadable.add((name, model))
-            log.warning("a model cannot be followed", gripper=name, reason=reason)
+    def _warn(self, state: GripperState, reason: str) -> None:
+        if state.model_digest not in self._told:
+            self._told.add(state.model_digest)
+            log.warning("a model cannot be followed", gripper=state.name, reason=reason)
 
-    def _read(self, name: str, model: str) -> GripperSettings:
-        loaded = self._loaded.grippers[name]
-        return with_model(loaded, versions_of(self._loaded, loaded).get(model).model)
+    def edited(self, name: str) -> bool:
+        """Whether control goes by a version 0 that is not the one that was loaded.
+
+        Control that was started anew reads the file as it is now, and the command line
+        gives it what that says.
+        """
+        now, loaded = self._now[name].chain, self._configured[name]
+        return now.name == loaded.name and now.digest != loaded.digest

@@ -17,6 +17,7 @@ from gripperd.link.control import Overview, ReadModules, ReadOverview
 from gripperd.service.body import router
 from gripperd.service.buses import BusDocument, bus_document
 from gripperd.service.context import Context, Daemon
+from gripperd.service.fleet import Fleet
 from gripperd.service.modules import RigDocument, rig_document
 from gripperd.service.problems import ProblemResponse, problem
 from gripperd.service.rendering import Document, optional, timestamp
@@ -32,6 +33,10 @@ FAILS_OPEN = "{name}: without power or air the muscle vents and the object drops
 SKIPPED = "a saved profile is not there: {complaint}"
 DAMAGED = "the history left out what is not as it was written: {records}"
 NO_REAL_TIME = "the control loop runs without real-time priority; see overruns"
+EDITED = (
+    "{name}: control goes by another {model} than the service has read, since its file"
+    " was edited; start the daemon again"
+)
 UNLOGGED = "control dropped {count} log lines: nobody took them in time"
 
 routes = router("health")
@@ -141,11 +146,8 @@ def _timing(overview: Overview | None) -> Mapping[str, TimingDocument]:
 
 def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
     yield NO_SAFETY_FUNCTION
-    for name, gripper in daemon.fleet.items():
-        for said in warnings(gripper.output, gripper.input):
-            yield f"{name}: {said}"
-        if gripper.fail_mode is FailMode.VENT:
-            yield FAILS_OPEN.format(name=name)
+    for name in daemon.fleet:
+        yield from _of_gripper(name, daemon.fleet)
     archive = daemon.past.archive
     if archive.trouble is not None:
         yield archive.trouble
@@ -155,6 +157,16 @@ def _warnings(daemon: Context, overview: Overview | None) -> Iterator[str]:
         yield SKIPPED.format(complaint=complaint)
     if overview is not None:
         yield from _of_control(overview)
+
+
+def _of_gripper(name: str, fleet: Fleet) -> Iterator[str]:
+    gripper = fleet[name]
+    for said in warnings(gripper.output, gripper.input):
+        yield f"{name}: {said}"
+    if gripper.fail_mode is FailMode.VENT:
+        yield FAILS_OPEN.format(name=name)
+    if fleet.edited(name):
+        yield EDITED.format(name=name, model=gripper.chain.name)
 
 
 def _of_control(overview: Overview) -> Iterator[str]:

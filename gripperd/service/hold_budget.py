@@ -32,7 +32,7 @@ def hold_budget(
     """The budget by the last measurement, less the time since."""
     if state.measured is None or state.age is None:
         return None
-    if state.model != settings.chain.name:
+    if state.model_digest != settings.chain.digest:
         return None
     held = state.held or _assumed(state, settings.chain)
     if held is None:

@@ -147,7 +147,7 @@ async def activated(
             for name in found.grippers:
                 daemon.states.forget(name)
         for name in found.grippers:
-            await daemon.fleet.follow(name, found.version.name)
+            await daemon.up_to_date(daemon.fleet[name])
     return ActivationDocument(
         name=found.version.name, version=found.version.number, grippers=found.grippers
     )

@@ -75,7 +75,7 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
             409, "The version cannot be used", Category.PRECONDITION
         ),
         "model-changed": Kind(
-            409, "The model is not the one that was judged", Category.PRECONDITION
+            409, "The model was changed since", Category.PRECONDITION
         ),
         "nothing-found": Kind(409, "It ended without a result", Category.PRECONDITION),
         "not-named": Kind(409, "There is nothing to accept", Category.PRECONDITION),

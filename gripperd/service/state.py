@@ -178,7 +178,7 @@ def _measured(channel: str, unit: str, state: GripperState) -> Measured:
 
 def _predicted(state: GripperState, chain: Chain) -> PresentPrediction | None:
     measured = state.measured
-    if measured is None or state.model != chain.name:
+    if measured is None or state.model_digest != chain.digest:
         return None
     current, opening = measured.current.value, measured.opening.value
     if current is None or opening is None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from gripperd.config import Settings
+from gripperd.config import Settings, load_model, shipped
 from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Grip, Machine
 from gripperd.service.hold_budget import hold_budget
@@ -16,6 +16,7 @@ from .test_bad_input import COMMANDS
 
 GRIPPER = "/v1/grippers/g0"
 WAIT = {"Prefer": "wait=60"}
+REFERENCE = load_model(shipped("models/reference.yaml")).chain()
 
 
 def grasped(daemon: Daemon) -> None:
@@ -78,6 +79,7 @@ def adopted(force: float, strongest: float) -> GripperState:
         holding=None,
         link="up",
         model="reference",
+        model_digest=REFERENCE.digest,
         strongest=strongest,
     )
 

@@ -15,10 +15,10 @@ from gripperd.config.lineage import Added, Recorded
 from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.link.client import Client
-from gripperd.service.fleet import Fleet
 from gripperd.store import Version, Versions, versions_of
 from gripperd.store.activation import activation
 
+from .asking import asked, sent
 from .conftest import Daemon
 
 ASKED = {"current_mA": 10.7, "diameter_mm": 65}
@@ -236,32 +236,53 @@ def test_without_control_nothing_is_activated_and_predictions_go_on(
     assert predicted(lonely)[0] == "reference"
 
 
-def test_a_version_that_can_be_read_again_is_followed(
-    drawn_settings: Settings, stiffer: Version
-) -> None:
-    fleet = Fleet(drawn_settings)
+def by_the_command_line(settings: Settings, version: int) -> None:
+    """Activate a version, as another process that read these settings does."""
 
-    def gone_by() -> str:
-        return asyncio.run(fleet.follow("g0", stiffer.name)).chain.name
+    async def activate() -> None:
+        client = Client(settings.runtime_dir / "control.sock", "control")
+        found = activation(settings, "g0", version)
+        await found.take_up(client)
+        await client.close()
 
-    file = Path(stiffer.model.source)
-    whole = file.read_text()
-    file.write_text(whole.replace("diameter_mm: 20.0", "diameter_mm: 25.0"))
-    try:
-        assert (gone_by(), gone_by()) == ("as-drawn", "as-drawn")
-    finally:
-        file.write_text(whole)
-    assert gone_by() == stiffer.name
+    asyncio.run(activate())
 
 
 def test_a_version_that_somebody_else_let_control_take_up_is_followed(
     http: httpx.Client, drawn_settings: Settings, stiffer: Version
 ) -> None:
-    async def by_the_command_line() -> None:
-        client = Client(drawn_settings.runtime_dir / "control.sock", "control")
-        found = activation(drawn_settings, "g0", stiffer.number)
-        await found.take_up(client)
-        await client.close()
+    _, force = predicted(http)
+    by_the_command_line(drawn_settings, stiffer.number)
+    name, less = predicted(http)
+    assert name == stiffer.name
+    assert less == pytest.approx(force - 5.0)
 
-    asyncio.run(by_the_command_line())
-    assert predicted(http)[0] == stiffer.name
+
+def test_of_an_edited_file_predictions_are_what_control_makes_of_it(
+    drawn: Daemon, http: httpx.Client, drawn_settings: Settings, rig_folder: Path
+) -> None:
+    """20 N more of the return spring: 5 N less for each jaw, at a ratio of 4."""
+    gripper = drawn_settings.grippers["g0"]
+    assert gripper.model.linkage is not None
+    linkage = replace(gripper.model.linkage, spring_preload=260.0)
+    model = replace(gripper.model, linkage=linkage)
+    edited = replace(
+        drawn_settings,
+        grippers={"g0": replace(gripper, model=model, chain=model.chain())},
+    )
+    name, force = predicted(http)
+    by_the_command_line(edited, 0)
+    followed, less = predicted(http)
+    assert followed == name
+    assert less == pytest.approx(force - 5.0)
+    told = [said for said in http.get("/v1/info").json()["warnings"] if name in said]
+    assert len(told) == 1
+    assert "its file was edited" in told[0]
+    # What would be judged is not what is gone by.
+    recording = sent(drawn, (rig_folder / "rig.csv").read_bytes())
+    refused = problem(asked(drawn, recording))
+    assert refused["code"] == "model-changed"
+    # The service takes up what it has.
+    assert http.post("/v1/models/0/activate").status_code == 200
+    assert predicted(http) == (name, force)
+    assert not any(name in said for said in http.get("/v1/info").json()["warnings"])

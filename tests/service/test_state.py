@@ -2,11 +2,13 @@
 
 import pytest
 
-from gripperd.config import Settings
+from gripperd.config import Settings, load_model, shipped
 from gripperd.control.snapshot import GripperState
 from gripperd.control.states import Event, Grip, Machine
 from gripperd.service.state import state_document
 from gripperd.signals import ABSENT, Measurement, Quality, Reading
+
+REFERENCE = load_model(shipped("models/reference.yaml")).chain()
 
 
 def snapshot(age: float | None, **channels: Reading) -> GripperState:
@@ -24,6 +26,7 @@ def snapshot(age: float | None, **channels: Reading) -> GripperState:
         holding="apple",
         link="up",
         model="reference",
+        model_digest=REFERENCE.digest,
     )
 
 
