@@ -13,7 +13,7 @@ from starlette.responses import HTMLResponse
 from gripperd.config import model_text
 from gripperd.config.durable import replace_file
 from gripperd.config.section import Section
-from gripperd.errors import ConfigError, InputError, NotFound, Refused
+from gripperd.errors import ConfigError, InputError, LinkError, NotFound, Refused
 from gripperd.service.body import router
 from gripperd.service.context import Context, Daemon
 from gripperd.service.diagnosis_documents import (
@@ -119,9 +119,14 @@ async def accept_diagnosis(
     """Keep what was named as a new version of the model; go by it only if asked."""
     async with daemon.activating:
         found = await _succeeded(daemon, id)
-        version = await to_thread(
-            accept, found, daemon.diagnosing.kept, daemon.settings, datetime.now(UTC)
-        )
+        with _usable():
+            version = await to_thread(
+                accept,
+                found,
+                daemon.diagnosing.kept,
+                daemon.settings,
+                datetime.now(UTC),
+            )
     response.headers["location"] = f"/v1/models/{version.name}?gripper={found.gripper}"
     kept = AcceptedDocument(
         name=version.name, version=version.number, parent=found.version, grippers=None
@@ -130,10 +135,13 @@ async def accept_diagnosis(
         return kept
     try:
         active = await activated(daemon, version.number, found.gripper)
-    except Refused as refused:
-        message = f"kept as {version.name}, which is not active: {refused}"
-        hints = (*refused.hints, f"POST /v1/models/{version.name}/activate afterwards")
-        raise Refused(message, code=refused.code, hints=hints) from refused
+    except (Refused, LinkError) as error:
+        message = f"kept as {version.name}, which is not active: {error}"
+        afterwards = f"POST /v1/models/{version.name}/activate afterwards"
+        if isinstance(error, LinkError):
+            raise type(error)(f"{message}; {afterwards}") from error
+        hints = (*error.hints, afterwards)
+        raise Refused(message, code=error.code, hints=hints) from error
     return kept.model_copy(update={"grippers": active.grippers})
 
 
@@ -143,7 +151,7 @@ def _written(daemon: Context, asked: DiagnosisRequest) -> StoredDiagnosis:
     versions = versions_of(daemon.settings, daemon.settings.grippers[gripper])
     with _key("recording"):
         daemon.recordings.get(asked.recording)
-    with _key("model"):
+    with _key("model"), _usable():
         version = versions.get(asked.model)
     if version.number == 0 and daemon.fleet.edited(gripper):
         message = f"control goes by another {version.name}: its file was edited"
@@ -173,6 +181,13 @@ def _key(name: str) -> Iterator[None]:
         yield
     except NotFound as missing:
         raise InputError(str(missing), key=name) from missing
+
+
+@contextmanager
+def _usable() -> Iterator[None]:
+    """Let a file that is damaged be no fault of the body."""
+    try:
+        yield
     except ConfigError as damaged:
         raise Refused(str(damaged), code="model-unusable") from damaged
 

@@ -44,6 +44,7 @@ class Diagnosing:
         self._running: str | None = None
         self._began: datetime | None = None
         self._progress = WAITING
+        self._unwritten: dict[str, StoredDiagnosis] = {}
         self._job: Task[Judged] | None = None
         self._serving: Task[None] | None = None
 
@@ -97,6 +98,7 @@ class Diagnosing:
 
         That it runs is nowhere written: who reads it would be another life.
         """
+        written = self._unwritten.get(written.id, written)
         if written.final:
             return written, None
         if written.id != self._running:
@@ -137,6 +139,9 @@ class Diagnosing:
     async def _judge(self, diagnosis: str) -> Judged:
         found = await to_thread(self.kept.get, diagnosis)
         recording = await to_thread(self._recordings.get, found.recording)
+        if not await to_thread(self._recordings.intact, found.recording):
+            message = f"{recording.file} is not the file that was sent; send it again"
+            raise Refused(message, code="recording-damaged")
         file = self._recordings.path(recording)
         place = self.kept.place(diagnosis).absolute()
         return await work(
@@ -175,7 +180,15 @@ class Diagnosing:
             started_at=self._began if diagnosis.id == self._running else None,
             completed_at=self._now(),
         )
-        await to_thread(self.kept.put, ended)
+        try:
+            await to_thread(self.kept.put, ended)
+        except Refused as refused:
+            log.error("a diagnosis is lost", id=ended.id, reason=str(refused))
+            if status is Status.SUCCEEDED:
+                why = Why(code=refused.code, message=str(refused))
+                ended = replace(diagnosis, status=Status.FAILED, error=why)
+            # Told as long as this service lives; the next one calls it interrupted.
+            self._unwritten[ended.id] = ended
         return ended
 
 

@@ -58,7 +58,7 @@ def failure(request: Request, error: GripperdError) -> ProblemResponse:
         hints = ("a new request needs a new key",)
     elif isinstance(error, InputError) and code == "invalid" and error.key:
         faults = (Fault(detail=str(error), pointer=f"/{error.key}"),)
-    elif isinstance(error, LinkError) and request.method == "POST":
+    elif isinstance(error, LinkError) and path.endswith("/commands"):
         hints = (REPEATABLE,)
     detail = OTHER_DEFECT if code == "internal" else str(error)
     return ProblemResponse(

@@ -77,6 +77,9 @@ PROBLEMS: Mapping[str, Kind] = MappingProxyType(
         "model-changed": Kind(
             409, "The model was changed since", Category.PRECONDITION
         ),
+        "recording-damaged": Kind(
+            409, "The recording is not as it was sent", Category.PRECONDITION
+        ),
         "nothing-found": Kind(409, "It ended without a result", Category.PRECONDITION),
         "not-named": Kind(409, "There is nothing to accept", Category.PRECONDITION),
         "not-confirmed": Kind(

@@ -36,6 +36,7 @@ from gripperd.store.diagnoses import (
     write_improvement,
 )
 from gripperd.store.recordings import Contents, RejectedSamples, RunContents
+from gripperd.store.records import writing
 
 if TYPE_CHECKING:
     from gripperd.diagnose.diagnosis import Diagnosis
@@ -127,7 +128,8 @@ def _judged(file: Path, folder: Path, seed: int) -> Judged:
     say(Progress("report", 0.95))
     said = document(found, model=model.name, program=__version__)
     text = json.dumps(said, ensure_ascii=False, allow_nan=False)
-    replace_file(folder / RESULT, f"{text}\n")
+    with writing(folder):
+        replace_file(folder / RESULT, f"{text}\n")
     unprinted = _print(found, model.name, folder)
     try:
         better = improvement(model, found, __version__)
@@ -143,9 +145,11 @@ def _print(found: "Diagnosis", model: str, folder: Path) -> str | None:
     from gripperd.report import page
 
     try:
-        replace_file(folder / REPORT, page(found, model=model, program=__version__))
+        html = page(found, model=model, program=__version__)
     except InputError as error:
         return str(error)
+    with writing(folder):
+        replace_file(folder / REPORT, html)
     return None
 
 

@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 from datetime import datetime
+from pathlib import Path
 
-from gripperd.config import Settings, model_text
+from gripperd.config import ModelFile, Settings, model_text
 from gripperd.errors import NotFound, Refused
 from gripperd.store.active import versions_of
 from gripperd.store.diagnoses import MODEL, Diagnoses, StoredDiagnosis, read_improvement
@@ -34,7 +35,7 @@ def accept(
         Nothing was named or confirmed, it was accepted before, or the model that was
         judged is not as it was.
     ConfigError
-        The better model is one that could not be read again.
+        A file of the diagnosis or of the versions is damaged.
     """
     if diagnosis.kept_as is not None:
         message = f"it was kept already, as {diagnosis.kept_as}"
@@ -46,8 +47,8 @@ def accept(
         raise NotFound(message, key="id")
     place = kept.place(diagnosis.id)
     versions = versions_of(settings, settings.grippers[diagnosis.gripper])
-    judged = (place / MODEL).read_text(encoding="utf-8")
-    if judged != model_text(versions.get(diagnosis.version).model):
+    judged = versions.get(diagnosis.version).model
+    if not _is(judged, place / MODEL):
         message = f"{diagnosis.model} is not the model any more that was judged"
         hints = ("diagnose the recording again",)
         raise Refused(message, code="model-changed", hints=hints)
@@ -57,3 +58,10 @@ def accept(
     )
     kept.put(replace(diagnosis, kept_as=version.name))
     return version
+
+
+def _is(model: ModelFile, file: Path) -> bool:
+    try:
+        return file.read_bytes() == model_text(model).encode()
+    except OSError:
+        return False

@@ -5,8 +5,12 @@ from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
 
-from gripperd.config import ModelFile, Provenance, load_model, model_text
+from pydantic import ValidationError
+
+from gripperd.config import Complaint, ModelFile, Provenance, load_model, model_text
 from gripperd.config.durable import replace_file
+from gripperd.config.sealed import check_seal, sealed
+from gripperd.errors import ConfigError
 from gripperd.store.records import Records, writing
 
 RESULT, REPORT = "result.json", "report.html"
@@ -125,7 +129,7 @@ def write_improvement(model: ModelFile, made: Provenance, folder: Path) -> None:
         The disk is full or cannot be written.
     """
     with writing(folder):
-        replace_file(folder / BETTER, model_text(model))
+        replace_file(folder / BETTER, sealed(model_text(model)))
         replace_file(folder / PROVENANCE, made.model_dump_json())
 
 
@@ -135,7 +139,12 @@ def read_improvement(folder: Path) -> tuple[ModelFile, Provenance]:
     Raises
     ------
     ConfigError
-        The model is damaged.
+        One of the two is damaged.
     """
-    made = (folder / PROVENANCE).read_text(encoding="utf-8")
-    return load_model(folder / BETTER), Provenance.model_validate_json(made)
+    better, made = folder / BETTER, folder / PROVENANCE
+    check_seal(better)
+    try:
+        provenance = Provenance.model_validate_json(made.read_bytes())
+    except (OSError, ValidationError) as error:
+        raise ConfigError(Complaint("is damaged", source=str(made))) from error
+    return load_model(better), provenance

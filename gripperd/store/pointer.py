@@ -1,8 +1,8 @@
-"""Which version is active, and which ones were before it."""
+"""Which version is active, which ones were before it, and how many there were."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from fcntl import LOCK_EX, flock
 from pathlib import Path
 from typing import Annotated
@@ -25,6 +25,7 @@ class PointerSection(Section):
 
     active: Number
     before: Annotated[tuple[Number, ...], Field(strict=False)] = ()
+    made: Number = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +35,14 @@ class Pointer:
     active: int = 0
     before: tuple[int, ...] = ()
     """Those to roll back to, the last one first to come."""
+    made: int = 0
+    """The highest number that a version ever had: no other gets it."""
 
     def to(self, version: int) -> "Pointer":
         """Point to another version."""
         if version == self.active:
             return self
-        return Pointer(version, (*self.before, self.active))
+        return replace(self, active=version, before=(*self.before, self.active))
 
     def back(self) -> "Pointer":
         """Point to the version that was active before.
@@ -52,7 +55,7 @@ class Pointer:
         if not self.before:
             message = f"version {self.active} was the first; there is none before it"
             raise Refused(message, code="nothing-before")
-        return Pointer(self.before[-1], self.before[:-1])
+        return replace(self, active=self.before[-1], before=self.before[:-1])
 
 
 def read_pointer(path: Path) -> Pointer:
@@ -71,18 +74,18 @@ def read_pointer(path: Path) -> Pointer:
         hint = "nobody can say which version is active; remove the file for version 0"
         complaint = Complaint(hint, source=str(path))
         raise ConfigError(*damaged.complaints, complaint) from None
-    return Pointer(section.active, section.before)
+    return Pointer(section.active, section.before, section.made)
 
 
 def write_pointer(pointer: Pointer, path: Path) -> None:
-    """Make another version the active one.
+    """Write down which version is active.
 
     Raises
     ------
     OSError
-        The one before is still active.
+        What was written before still holds.
     """
-    document = {"active": pointer.active, "before": list(pointer.before)}
+    document = asdict(pointer) | {"before": list(pointer.before)}
     replace_file(path, yaml_text(document))
 
 

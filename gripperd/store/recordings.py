@@ -5,11 +5,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime
+from hashlib import file_digest
 from pathlib import Path
 from shutil import rmtree
 from tempfile import mkdtemp
 
-from gripperd.store.records import FILE, Records, writing
+from gripperd.errors import NotFound
+from gripperd.store.records import Records, writing
 
 DRAFT = ".draft-"
 
@@ -88,6 +90,14 @@ class Recordings:
         """Its file."""
         return self._records.place(recording.id) / recording.file
 
+    def intact(self, recording: str) -> bool:
+        """Whether one is there and its content is still the one that was sent."""
+        try:
+            with self.path(self.get(recording)).open("rb") as content:
+                return file_digest(content, "sha256").hexdigest() == recording
+        except (NotFound, OSError):
+            return False
+
     @contextmanager
     def draft(self) -> Iterator[Path]:
         """Make a folder for a file that is not known to be a recording yet.
@@ -110,13 +120,15 @@ class Recordings:
     def keep(self, draft: Path, recording: StoredRecording) -> bool:
         """Keep the file of a draft; False where the same content is kept already.
 
+        What was kept and was damaged since is mended by it.
+
         Raises
         ------
         Refused
             The disk is full or cannot be written.
         """
         place = self._records.place(recording.id)
-        if (place / FILE).exists():
+        if self.intact(recording.id):
             return False
         with writing(self._folder):
             with (draft / recording.file).open("rb") as content:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from gripperd.config import Complaint, ModelFile, load_model
 from gripperd.config.complaint import did_you_mean, dotted, gathering
-from gripperd.config.durable import create_file, replace_file
+from gripperd.config.durable import create_file, remove_file, replace_file
 from gripperd.config.lineage import Lineage, Provenance
 from gripperd.config.model_text import model_text
 from gripperd.config.sealed import check_seal, sealed
@@ -91,6 +91,8 @@ class Versions:
         ------
         NotFound
             There is no such parent.
+        ConfigError
+            The file that says which one is active is damaged.
         Refused
             The model is one that could not be read again, or the disk is full or cannot
             be written; nothing was kept.
@@ -102,7 +104,8 @@ class Versions:
                 known := self.same(model, parent=parent, provenance=provenance)
             ):
                 return known
-            number = max(self._numbers(), default=0) + 1
+            pointer = self._read_pointer()
+            number = max(pointer.made, *self._numbers(), 0) + 1
             lineage = Lineage(
                 version=number,
                 parent=parent,
@@ -111,9 +114,14 @@ class Versions:
             )
             name = self._name(number)
             text = model_text(replace(model, name=name, lineage=lineage))
-            if number == 1:
+            if not any(self._numbers()):
                 replace_file(self._file(0), sealed(model_text(self._base)))
             create_file(self._file(number), sealed(text), check=_readable)
+            try:
+                write_pointer(replace(pointer, made=number), self._pointer)
+            except OSError:
+                remove_file(self._file(number))
+                raise
         return self.get(number)
 
     def same(

@@ -1,7 +1,8 @@
 """Diagnoses over REST: with the worker, the control loop and the bench as they are."""
 
 import json
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,9 @@ from gripperd.config.lineage import Recorded
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.document import document
 from gripperd.store.diagnoses import (
+    BETTER,
     MODEL,
+    PROVENANCE,
     RESULT,
     Diagnoses,
     Status,
@@ -123,10 +126,36 @@ def test_a_recording_that_is_gone_is_told_by_the_diagnosis(
 ) -> None:
     lines = (rig_folder / "rig.csv").read_bytes().splitlines(keepends=True)
     recording = sent(drawn, b"".join(lines[:50]))
-    (drawn_settings.state_dir / "recordings" / recording / "rig.csv").unlink()
+    file = drawn_settings.state_dir / "recordings" / recording / "rig.csv"
+    for spoilt in (lambda: file.write_bytes(lines[0] + lines[7]), file.unlink):
+        spoilt()
+        found = over(drawn, asked(drawn, recording).headers["location"])
+        assert found["status"] == "failed"
+        assert found["error"] == {
+            "code": "recording-damaged",
+            "message": "rig.csv is not the file that was sent; send it again",
+        }
+    assert sent(drawn, b"".join(lines[:50])) == recording
     found = over(drawn, asked(drawn, recording).headers["location"])
-    assert (found["status"], found["error"]["code"]) == ("failed", "invalid")
-    assert found["error"]["message"] == "rig.csv: there is no such file"
+    assert found["status"] == "succeeded"
+
+
+@pytest.mark.parametrize("file", [BETTER, PROVENANCE, MODEL])
+@pytest.mark.parametrize("damage", [Path.unlink, lambda file: os.truncate(file, 99)])
+def test_what_was_damaged_since_is_not_accepted(
+    drawn: Daemon,
+    drawn_settings: Settings,
+    named: str,
+    file: str,
+    damage: Callable[[Path], object],
+) -> None:
+    place = drawn_settings.state_dir / "diagnoses" / named.rpartition("/")[2]
+    damage(place / file)
+    before = drawn.http.get("/v1/models").json()
+    status, code, _ = problem(drawn.http.post(f"{named}/accept"))
+    wanted = "model-changed" if file == MODEL else "model-unusable"
+    assert (status, code) == (409, wanted)
+    assert drawn.http.get("/v1/models").json() == before
 
 
 @pytest.mark.parametrize(

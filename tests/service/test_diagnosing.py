@@ -11,7 +11,7 @@ from gripperd.config import Settings
 from gripperd.store.diagnoses import RESULT, Diagnoses, Status
 from tests.daemon import PATIENCE
 
-from .asking import asked, problem, sent, stored
+from .asking import asked, over, problem, sent, stored
 from .conftest import Daemon, running, service
 
 
@@ -87,6 +87,23 @@ def test_a_new_life_finds_what_is_over_and_calls_the_rest_failed(
         assert (found["status"], found["result"]) == ("succeeded", {"verdict": "none"})
         found = http.get(f"/v1/diagnoses/{begun.id}").json()
         assert (found["status"], found["error"]["code"]) == ("failed", "interrupted")
+
+
+@pytest.mark.parametrize("draft", [".record.draft", ".result.draft"])
+def test_what_the_disk_does_not_take_has_failed(
+    drawn: Daemon, drawn_settings: Settings, rig_folder: Path, draft: str
+) -> None:
+    lines = (rig_folder / "rig.csv").read_bytes().splitlines(keepends=True)
+    short = sent(drawn, b"".join(lines[:45]))
+    place = asked(drawn, short).headers["location"]
+    folder = drawn_settings.state_dir / place.removeprefix("/v1/")
+    # A folder where a file is to be written: nobody can, not even root.
+    (folder / draft).mkdir()
+    found = over(drawn, place)
+    assert (found["status"], found["error"]["code"]) == ("failed", "storage-failed")
+    assert "nothing was kept" in found["error"]["message"]
+    status, code, _ = problem(drawn.http.post(f"{place}/accept"))
+    assert (status, code) == (409, "nothing-found")
 
 
 def test_a_service_that_ends_leaves_no_worker_and_its_next_life_says_so(

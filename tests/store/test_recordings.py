@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -6,7 +7,9 @@ import pytest
 from gripperd.errors import NotFound
 from gripperd.store.recordings import Contents, Recordings, RunContents, StoredRecording
 
-SHA = "5" * 64
+FIRST = "first"
+SHA = "a7937b64b8caa58f03721bb6bacf5c78cb235febe0e70b1b84cd99541461a08e"
+"""Of the word above, as ``sha256sum`` has it."""
 
 
 def described(sha: str = SHA, hour: int = 12) -> StoredRecording:
@@ -47,9 +50,23 @@ def test_a_recording_that_was_kept_is_there_in_another_life(
 
 
 def test_the_same_content_is_kept_once(recordings: Recordings) -> None:
-    assert kept(recordings, described(hour=12), "first")
-    assert not kept(recordings, described(hour=13), "first")
+    assert kept(recordings, described(hour=12), FIRST)
+    assert not kept(recordings, described(hour=13), FIRST)
     assert recordings.all() == [described(hour=12)]
+
+
+@pytest.mark.parametrize("file", ["rig.csv", "record.json"])
+@pytest.mark.parametrize("damage", [Path.unlink, lambda file: file.write_text("{")])
+def test_what_was_damaged_is_mended_by_sending_it_again(
+    recordings: Recordings, tmp_path: Path, file: str, damage: Callable[[Path], object]
+) -> None:
+    kept(recordings, described(hour=12), FIRST)
+    assert recordings.intact(SHA)
+    damage(tmp_path / "recordings" / SHA / file)
+    assert not recordings.intact(SHA)
+    assert kept(recordings, described(hour=13), FIRST)
+    assert recordings.all() == [described(hour=13)]
+    assert recordings.path(recordings.get(SHA)).read_text() == FIRST
 
 
 def test_the_newest_comes_first(recordings: Recordings) -> None:

@@ -206,6 +206,20 @@ def test_the_model_that_versions_were_made_from_is_kept_as_it_was(
         Versions.kept(folder)
 
 
+def test_the_number_of_a_version_that_is_gone_goes_to_no_other(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    folder = tmp_path / "models/reference"
+    for number in (1, 2):
+        add(versions, provenance)
+        (folder / f"{number}.yaml").unlink()
+    assert add(versions, provenance).number == 3
+    versions.activate(3)
+    versions.rollback()
+    (folder / "3.yaml").unlink()
+    assert add(versions, provenance).number == 4
+
+
 def test_a_version_put_in_the_place_of_another_is_refused(
     versions: Versions, provenance: Provenance, tmp_path: Path
 ) -> None:
@@ -264,6 +278,15 @@ def _add_some(folder: Path, provenance: Provenance) -> list[int]:
     base = load_model(shipped("models/reference.yaml"))
     versions = Versions(folder, base)
     return [add(versions, provenance).number for _ in range(3)]
+
+
+def test_where_the_number_is_not_noted_no_version_is_kept(
+    versions: Versions, provenance: Provenance, tmp_path: Path
+) -> None:
+    (tmp_path / "models/reference/.active.draft").mkdir(parents=True)
+    with pytest.raises(Refused, match="nothing was changed"):
+        add(versions, provenance)
+    assert [one.number for one in versions.all().versions] == [0]
 
 
 def test_two_writers_at_once_lose_no_version(
