@@ -306,9 +306,11 @@ def _run(
 
 
 def covariance(time: Array, law: Noise) -> Array:
-    """Of autoregressive noise and a drift, sampled every :data:`STEP`."""
+    """Of white and autoregressive noise and a drift, sampled every :data:`STEP`."""
     apart = np.abs(np.subtract.outer(time, time))
-    fast = law.std**2 * law.correlation ** np.round(apart / STEP)
+    persistence = law.correlation / (1 - law.white)
+    fast = (1 - law.white) * persistence ** np.round(apart / STEP)
+    fast = law.std**2 * (fast + law.white * np.eye(time.size))
     slow = law.drift**2 * np.exp(-apart / law.memory)
     return np.asarray(fast + slow)
 

@@ -215,7 +215,7 @@ def _covariances(
     apart = np.abs(np.subtract.outer(time, time))
     same = np.equal.outer(sweep, sweep)
     wander = same * np.exp(-apart / noise.memory)
-    fast = same * noise.correlation ** (apart / step)
+    fast = same * noise.correlations(apart / step)
     return noise.std**2 * fast + noise.drift**2 * wander, wander
 
 

@@ -57,8 +57,8 @@ def louder(problem: Problem, inflations: Mapping[Signal, float]) -> Problem:
     noises = dict(problem.noises)
     for signal, ratio in inflations.items():
         noise, factor = noises[signal], ratio**0.5
-        noises[signal] = Noise(
-            noise.std * factor, noise.correlation, noise.drift * factor, noise.memory
+        noises[signal] = replace(
+            noise, std=noise.std * factor, drift=noise.drift * factor
         )
     return replace(
         problem, noises=noises, inflations=MappingProxyType(dict(inflations))

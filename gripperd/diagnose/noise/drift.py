@@ -25,6 +25,11 @@ MEMORIES = (8.0, 20.0, 60.0, 200.0)
 """Times of forgetting tried. [s]"""
 ALLOWANCE = 0.001
 """Assumed when the recording has neither a hold nor a repeat, of full scale. [-]"""
+PERSISTENCES = (0.5, 0.6, 0.7, 0.8, 0.9)
+SHARES = (0.2, 0.4, 0.6, 0.8, 1.0)
+"""Of the variance that persists so, tried. [-]"""
+PLAIN = 3.0
+"""Log likelihood that speaks for another colour than neighbours tell. [nat]"""
 CAUTION = 0.7
 """Share of the posterior below the size that is used: too small a drift makes false
 alarms, too large a one only hides small effects. [-]"""
@@ -67,6 +72,34 @@ def with_drift(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise
     size = min(size, len(SIZES) - 1)
     memory = int(np.argmax(weights[size]))
     return replace(noise, drift=SIZES[size] * full_scale, memory=MEMORIES[memory])
+
+
+def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
+    """Give a noise the colour that quiet stretches show.
+
+    Neighbours tell the difference of two readings, ``s² (1 - r)`` of an
+    autoregressive noise that has not wandered yet. How far it wanders they cannot tell
+    where it is covered by white noise; that is found by likelihood, with the difference
+    of neighbours as it is.
+
+    Parameters
+    ----------
+    noise, quiet, full_scale
+        As in :func:`with_drift`.
+    """
+    apart = noise.std**2 * (1 - noise.correlation)
+    tried = [noise]
+    for persistence in PERSISTENCES:
+        for share in SHARES:
+            r = share * persistence
+            std = float(np.sqrt(apart / (1 - r)))
+            tried.append(replace(noise, std=std, correlation=r, white=1 - share))
+    drift = ALLOWANCE * full_scale
+    scores = [
+        sum(_likelihood(replace(one, drift=drift), q) for q in quiet) for one in tried
+    ]
+    best = int(np.argmax(scores))
+    return tried[best] if scores[best] > scores[0] + PLAIN else noise
 
 
 def _likelihood(noise: Noise, quiet: Quiet) -> float:

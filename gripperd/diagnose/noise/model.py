@@ -24,7 +24,7 @@ SHORT = 3
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """First-order autoregressive noise, plus a slow drift."""
+    """First-order autoregressive noise, white noise, and a slow drift."""
 
     std: float
     """Of one sample, without the drift. [unit of the column]"""
@@ -34,11 +34,23 @@ class Noise:
     """Standard deviation of the drift. [unit of the column]"""
     memory: float = 20.0
     """Time in which the drift forgets. [s]"""
+    white: float = 0.0
+    """Share of the variance, without the drift, that no other sample has. [-]"""
+
+    @property
+    def persistence(self) -> float:
+        """Share of what is not white that the next sample still has. [-]."""
+        return self.correlation / (1 - self.white)
 
     @property
     def slow_variance(self) -> float:
         """Variance of one sample as a mean over many samples sees it."""
-        return self.std**2 * (1 + self.correlation) / (1 - self.correlation)
+        return self.std**2 * (1 + 2 * self.correlation / (1 - self.persistence))
+
+    def correlations(self, lags: Array) -> Array:
+        """Between samples that many apart, without the drift. [-]."""
+        alike = (1 - self.white) * self.persistence ** np.abs(lags)
+        return np.asarray(np.where(lags == 0, 1.0, alike))
 
     @property
     def floor(self) -> float:

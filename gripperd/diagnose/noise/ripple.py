@@ -86,6 +86,7 @@ def _fast(left: Array) -> tuple[Array, Array]:
 
 
 def _gain(noise: Noise, cycles: float) -> float:
-    """Power of autoregressive noise at a frequency, of white noise of unit variance."""
-    r = noise.correlation
-    return noise.std**2 * (1 - r**2) / (1 + r**2 - 2 * r * cos(2 * pi * cycles))
+    """Power of a noise at a frequency, of white noise of unit variance."""
+    r = noise.persistence
+    wandering = (1 - r**2) / (1 + r**2 - 2 * r * cos(2 * pi * cycles))
+    return noise.std**2 * (noise.white + (1 - noise.white) * wandering)

@@ -1,8 +1,9 @@
 """Residuals made independent: the innovations of the noise itself.
 
-The noise is first-order autoregressive plus an Ornstein-Uhlenbeck drift. Its Kalman
-filter turns residuals into innovations of unit variance; the filter is linear and its
-gains do not depend on the values, so the same map serves every column.
+The noise is first-order autoregressive beside what is white and an Ornstein-Uhlenbeck
+drift. Its Kalman filter turns residuals into innovations of unit variance; the filter
+is linear and its gains do not depend on the values, so the same map serves every
+column.
 
 References
 ----------
@@ -46,7 +47,8 @@ class Law(NamedTuple):
     ages: Array
     """The same in memories of the drift. [-]"""
     sizes: Array
-    """Standard deviation, correlation, standard deviation of the drift."""
+    """Standard deviation and persistence of what is neither white nor drift, standard
+    deviation of the drift, variance of what is white."""
 
 
 def law_of(time: Array, noise: Noise, ages: Array | None = None) -> Law:
@@ -66,7 +68,9 @@ def law_of(time: Array, noise: Noise, ages: Array | None = None) -> Law:
     usual = float(np.median(step[1:])) if step.size > 1 else 1.0
     aged = step / noise.memory if ages is None else np.diff(ages, prepend=ages[:1])
     slow = max(noise.drift, 1e-6 * noise.std)
-    return Law(step / usual, aged, np.array([noise.std, noise.correlation, slow]))
+    fast = noise.std * (1 - noise.white) ** 0.5
+    sizes = fast, noise.persistence, slow, noise.std**2 * noise.white
+    return Law(step / usual, aged, np.array(sizes))
 
 
 def innovations(columns: Array, law: Law) -> Array:
@@ -75,7 +79,7 @@ def innovations(columns: Array, law: Law) -> Array:
 
 
 def _innovations(columns: Array, steps: Array, ages: Array, sizes: Array) -> Array:
-    fast, correlation, slow = sizes
+    fast, persistence, slow, white = sizes
     n, k = columns.shape
     out = np.empty((n, k))
     a = np.zeros(k)
@@ -84,7 +88,7 @@ def _innovations(columns: Array, steps: Array, ages: Array, sizes: Array) -> Arr
     for i in range(n):
         if i > 0:
             skipped = max(1.0, np.round(steps[i]))
-            f = correlation**skipped if correlation > 0 else 0.0
+            f = persistence**skipped if persistence > 0 else 0.0
             g = np.exp(-ages[i])
             p11 = f * f * p11 + fast * fast * (1 - f * f)
             p12 = f * g * p12
@@ -92,7 +96,7 @@ def _innovations(columns: Array, steps: Array, ages: Array, sizes: Array) -> Arr
             for j in range(k):
                 a[j] *= f
                 d[j] *= g
-        variance = p11 + 2 * p12 + p22
+        variance = p11 + 2 * p12 + p22 + white
         k1, k2 = (p11 + p12) / variance, (p12 + p22) / variance
         scale = 1 / np.sqrt(variance)
         for j in range(k):
@@ -114,18 +118,18 @@ def log_scale(time: Array, noise: Noise) -> float:
 
 
 def _log_scales(steps: Array, ages: Array, sizes: Array) -> float:
-    fast, correlation, slow = sizes
+    fast, persistence, slow, white = sizes
     total = 0.0
     p11, p12, p22 = fast * fast, 0.0, slow * slow
     for i in range(steps.size):
         if i > 0:
             skipped = max(1.0, np.round(steps[i]))
-            f = correlation**skipped if correlation > 0 else 0.0
+            f = persistence**skipped if persistence > 0 else 0.0
             g = np.exp(-ages[i])
             p11 = f * f * p11 + fast * fast * (1 - f * f)
             p12 = f * g * p12
             p22 = g * g * p22 + slow * slow * (1 - g * g)
-        variance = p11 + 2 * p12 + p22
+        variance = p11 + 2 * p12 + p22 + white
         k1, k2 = (p11 + p12) / variance, (p12 + p22) / variance
         total += 0.5 * np.log(variance)
         p11, p12, p22 = (

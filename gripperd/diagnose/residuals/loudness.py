@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from gripperd.diagnose.noise.drift import shortened, with_drift
+from gripperd.diagnose.noise.drift import coloured, shortened, with_drift
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
@@ -68,6 +68,8 @@ def noises_of(
             *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
         ]  # fmt: skip
         quiet = shortened(quiet or repeated(*asked, first=True))
+        if not is_table(problem.courses):
+            noise = coloured(noise, quiet, problem.full_scale[signal])
         found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
     return _handed_on(found, problem)
 

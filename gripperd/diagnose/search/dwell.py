@@ -192,4 +192,4 @@ def _about(noise: Noise, level: float, share: float) -> Noise:
     drift = factor * noise.drift
     level = max(level, drift)
     memory = noise.memory * (level / drift) ** 2
-    return Noise(factor * noise.std, noise.correlation, level, memory)
+    return replace(noise, std=factor * noise.std, drift=level, memory=memory)

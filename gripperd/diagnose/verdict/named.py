@@ -179,8 +179,8 @@ def _price(problem: Problem, rival: Rival, without: Rival) -> float:
     """BIC's price of the further numbers, on the effective size of the sample."""
     effective = sum(
         measured.size
-        * (1 - problem.noises[block.signal].correlation)
-        / (1 + problem.noises[block.signal].correlation)
+        * problem.noises[block.signal].std ** 2
+        / problem.noises[block.signal].slow_variance
         for block, measured in zip(problem.blocks, problem.measured, strict=True)
     )
     more = len(rival.fit.coordinates) - len(without.fit.coordinates)

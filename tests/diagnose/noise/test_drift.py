@@ -1,9 +1,16 @@
 import numpy as np
 import pytest
 
-from gripperd.diagnose.noise.drift import Quiet, hold, repeat, shortened, with_drift
+from gripperd.diagnose.noise.drift import (
+    Quiet,
+    coloured,
+    hold,
+    repeat,
+    shortened,
+    with_drift,
+)
 from gripperd.diagnose.noise.drift import _likelihood as restricted
-from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.noise.model import Noise, quick_noise
 from gripperd.model.track import Array
 from tests.diagnose.sweep import noise
 
@@ -47,6 +54,37 @@ def test_a_slow_drift_is_remembered_longer_than_a_quick_one() -> None:
 def test_the_noise_of_neighbours_is_kept() -> None:
     found = with_drift(Noise(2.0, 0.3), _holds(1.0), FULL_SCALE)
     assert (found.std, found.correlation) == (2.0, 0.3)
+
+
+@pytest.mark.parametrize(("persistence", "share"), [(0.8, 0.3), (0.7, 0.6), (0.9, 0.5)])
+def test_what_persists_under_white_noise_is_found_in_holds(
+    persistence: float, share: float
+) -> None:
+    holds = [
+        hold(
+            TIME,
+            noise(800, 2.0 * share**0.5, seed, persistence)
+            + noise(800, 2.0 * (1 - share) ** 0.5, 50 + seed),
+            creeps=False,
+        )
+        for seed in range(4)
+    ]
+    neighbours = quick_noise([each.residual for each in holds])
+    true = Noise(2.0, share * persistence, white=1 - share)
+    found = coloured(neighbours, holds, FULL_SCALE)
+    assert found.slow_variance == pytest.approx(true.slow_variance, rel=0.4)
+    assert neighbours.slow_variance < 0.6 * true.slow_variance
+
+
+@pytest.mark.parametrize("correlation", [0.0, 0.3, 0.6])
+def test_noise_that_is_known_by_its_neighbours_stays_as_it_is(
+    correlation: float,
+) -> None:
+    law = Noise(2.0, correlation)
+    holds = [
+        hold(TIME, noise(800, 2.0, s, correlation), creeps=False) for s in range(4)
+    ]
+    assert coloured(law, holds, FULL_SCALE) == law
 
 
 def test_without_a_hold_some_drift_is_assumed() -> None:

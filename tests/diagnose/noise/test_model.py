@@ -132,6 +132,16 @@ def test_the_slow_variance_is_what_a_long_mean_sees() -> None:
     assert law.slow_variance == pytest.approx(covariance.sum() / size, rel=0.005)
 
 
+def test_what_is_white_is_shared_with_no_other_sample() -> None:
+    """Half the variance persists by 0.8: neighbours share 0.4, the next ones 0.32."""
+    size = 1000
+    law = Noise(3.0, 0.4, white=0.5)
+    alike = np.r_[1.0, 0.5 * 0.8 ** np.arange(1, size)]
+    np.testing.assert_allclose(law.correlations(np.arange(float(size))), alike)
+    covariance = 9.0 * toeplitz(alike)
+    assert law.slow_variance == pytest.approx(covariance.sum() / size, rel=0.01)
+
+
 def test_the_floor_holds_noise_and_drift() -> None:
     assert Noise(3.0, 0.5, drift=4.0).floor == pytest.approx(5.0)
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.ripple import ripple
+from gripperd.diagnose.noise.ripple import _gain, ripple
 from tests.diagnose.sweep import noise
 
 STEP = 0.1
@@ -60,6 +60,15 @@ def test_too_few_samples_tell_of_no_wave(size: int) -> None:
     found = ripple([np.ones(size)], _times(size), NOISE)
     assert found.p_value == 1.0
     assert found.amplitude == 0.0
+
+
+def test_the_power_of_a_noise_is_the_transform_of_what_its_samples_share() -> None:
+    """Wiener and Khinchin: the spectrum is the sum of all correlations as cosines."""
+    law, cycles = Noise(3.0, 0.4, white=0.5), 0.17
+    lags = np.arange(-400, 401)
+    alike = np.where(lags == 0, 1.0, 0.5 * 0.8 ** np.abs(lags))
+    power = 9.0 * np.sum(alike * np.cos(2 * np.pi * cycles * lags))
+    assert _gain(law, cycles) == pytest.approx(power)
 
 
 def test_noise_with_a_memory_swings_less_where_it_is_fast() -> None:

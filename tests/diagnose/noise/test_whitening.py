@@ -13,6 +13,7 @@ LAWS = [
     pytest.param(Noise(2.0, 0.6, drift=1.5, memory=4.0), id="both"),
     pytest.param(Noise(2.0, 0.0, drift=1.5, memory=40.0), id="white and drift"),
     pytest.param(Noise(2.0, 0.6), id="autoregressive alone"),
+    pytest.param(Noise(2.0, 0.4, drift=1.5, memory=9.0, white=0.5), id="all three"),
     pytest.param(Noise(0.5, 0.2, drift=30.0, memory=200.0), id="mostly drift"),
 ]
 TIMES = [pytest.param(EVEN, id="even"), pytest.param(GAPPED, id="gapped")]
