@@ -24,7 +24,17 @@ NUMBER = re.compile(
     re.IGNORECASE,
 )
 DECIMAL_COMMA = re.compile(r"[-+]?[0-9]++,[0-9]++")
-ENDING = re.compile(rb"\r\n|\n|\r|\Z")
+ENDING = re.compile(rb"\r\n|\n|\r")
+ROW = re.compile(
+    rb"""
+    ((?:
+        ,?+ (?: "(?:[^"]|"")*+" | (?P<unclosed>") )?+ [^,\r\n]*+
+    )*+)
+    (?: \r\n | \n | \r | \Z )
+    """,
+    re.VERBOSE,
+)
+"""Its cells; a quoted one may have ends of lines in it."""
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
 NOT_UTF8 = "is not UTF-8 text; save it as such"
 LONGEST_HEADER = 100_000
@@ -49,9 +59,10 @@ class CsvFile:
             There is none, or this is another kind of file.
         """
         content = content.removeprefix(BOM_UTF8)
-        number, line = next(_lines(content), (0, b""))
-        if not number:
+        first = next(_rows(content), None)
+        if first is None:
             raise _refused(source, "is empty")
+        number, line = first[0], first[1][1]
         if b"\0" in content[:LONGEST_HEADER] or len(line) > LONGEST_HEADER:
             raise _refused(source, "is neither a CSV file in UTF-8 nor Parquet")
         place = f"{source}:{number}"
@@ -79,7 +90,9 @@ class CsvFile:
         """
         kinds = {name: pa.string() for name in words if name in self.names}
         kinds |= {name: pa.float64() for name in numbers if name in self.names}
-        header, _ = next(_lines(self.content))
+        header, _ = next(_rows(self.content))
+        if number := _unclosed(self.content):
+            raise _refused(f"{self.source}:{number}", "a quote opens and never closes")
         try:
             table = pyarrow.csv.read_csv(
                 stream(self.content),
@@ -98,10 +111,10 @@ class CsvFile:
 
     def _misprint(self, numbers: Collection[str]) -> InputError | None:
         """Find the first line that cannot be read, and say why."""
-        for number, line in islice(_lines(self.content), 1, None):
+        for number, row in islice(_rows(self.content), 1, None):
             place = f"{self.source}:{number}"
             try:
-                cells = _cells(line.decode())
+                cells = _cells(row[1].decode())
             except UnicodeDecodeError:
                 return _refused(place, NOT_UTF8)
             if len(cells) != len(self.names):
@@ -113,17 +126,24 @@ class CsvFile:
         return None
 
 
-def _lines(content: bytes) -> Iterator[tuple[int, bytes]]:
-    """Give every line that is not empty, with its number from 1."""
-    start = 0
-    for number, ending in enumerate(ENDING.finditer(content), 1):
-        if ending.start() > start:
-            yield number, content[start : ending.start()]
-        start = ending.end()
+def _rows(content: bytes) -> Iterator[tuple[int, re.Match[bytes]]]:
+    """Give every row that is not empty, with the number from 1 of its first line."""
+    number = 1
+    for row in ROW.finditer(content):
+        if row[1]:
+            yield number, row
+        number += len(ENDING.findall(row[0])) if b'"' in row[1] else 1
+
+
+def _unclosed(content: bytes) -> int | None:
+    """Number of the first line with a quote that nothing closes."""
+    if b'"' not in content:
+        return None
+    return next((number for number, row in _rows(content) if row["unclosed"]), None)
 
 
 def _place(file: CsvFile, row: int) -> str:
-    number, _ = next(islice(_lines(file.content), row + 1, None))
+    number, _ = next(islice(_rows(file.content), row + 1, None))
     return f"{file.source}:{number}"
 
 

@@ -61,17 +61,18 @@ def _side_file(document: Document, runs: Sequence[Run]) -> SideFile:
         if isinstance(entries.get(key), list):
             detail = f"{shown(entries[key])} are several; a recording is of one muscle"
             raise ConfigError(document.complaint((key,), detail))
-    unknown = sorted(set(entries) - KNOWN)
+    about = _mapping(document, ("runs",), entries.get("runs"))
+    kinds = _kinds(document, about, tuple(run.name for run in runs))
+    unread = sorted(set(entries) - KNOWN)
+    for run, entry in about.items():
+        of_run = _mapping(document, ("runs", run), entry)
+        unread += [f"runs.{run}.{key}" for key in sorted(set(of_run) - {"kind"})]
     return SideFile(
         noise=_noise(
             document, _mapping(document, ("noise",), entries.get("noise")), runs
         ),
-        kinds=_kinds(
-            document,
-            _mapping(document, ("runs",), entries.get("runs")),
-            tuple(run.name for run in runs),
-        ),
-        remarks=tuple(f"{document.source}: {key} is not read" for key in unknown),
+        kinds=kinds,
+        remarks=tuple(f"{document.source}: {key} is not read" for key in unread),
     )
 
 
@@ -83,6 +84,9 @@ def _noise(
         column = COLUMNS.get(name)
         if column is None:
             detail = f"no such column; {did_you_mean(name, COLUMNS)}"
+            raise ConfigError(document.complaint(("noise", name), detail))
+        if column.quantity == "time":
+            detail = "the clock is taken for exact; leave it out"
             raise ConfigError(document.complaint(("noise", name), detail))
         if not _is_number(value) or value <= 0.0:
             detail = f"{shown(value)} is not above 0 {column.unit}".rstrip()

@@ -74,6 +74,35 @@ def test_a_file_cut_off_in_a_line_is_refused(
     assert complaint(path).startswith("rig.csv:31: ")
 
 
+def test_lines_are_counted_with_those_inside_quotes(
+    write: Write, complaint: Complaint
+) -> None:
+    columns = good() | {"note": [""] * 30}
+    columns["note"][2] = '"on two\nlines, with ""marks"""'
+    columns["force_N"][7] = "broken"
+    message = complaint(write(columns))
+    assert message == 'rig.csv:10: force_N: "broken" is not a number'
+
+
+def test_a_quote_that_never_closes_is_told_with_its_line(
+    write: Write, complaint: Complaint
+) -> None:
+    """What follows would be one long cell, and all of its rows lost."""
+    columns = good() | {"note": [""] * 30}
+    columns["note"][4] = '2" hose'
+    columns["note"][22] = '"begun'
+    path = write(columns)
+    path.write_text(path.read_text() + "\n")
+    assert complaint(path) == "rig.csv:24: a quote opens and never closes"
+
+
+def test_a_mark_inside_a_cell_is_no_quote(write: Write) -> None:
+    columns = good() | {"note": [""] * 30}
+    columns["note"][4] = '2" hose'
+    (run,) = read_recording(write(columns)).runs
+    assert len(run) == 30
+
+
 def test_a_line_that_is_not_utf_8_is_named(write: Write, complaint: Complaint) -> None:
     columns = good()
     columns["run"] = ["Öl"] * 30

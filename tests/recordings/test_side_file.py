@@ -20,9 +20,12 @@ def test_kinds_and_noise_are_taken_from_the_side_file(write: Write) -> None:
 
 def test_a_key_nobody_knows_is_said_not_to_be_read(write: Write) -> None:
     path = write(good())
-    path.with_suffix(".yaml").write_text("weather: rain\n")
-    (remark,) = read_recording(path).remarks
+    path.with_suffix(".yaml").write_text(
+        "weather: rain\nruns: {h0.10: {kind: isometric, knd: step}}\n"
+    )
+    remark, of_run = read_recording(path).remarks
     assert "weather is not read" in remark
+    assert "runs.h0.10.knd is not read" in of_run
 
 
 @pytest.mark.parametrize(
@@ -35,6 +38,7 @@ def test_a_key_nobody_knows_is_said_not_to_be_read(write: Write) -> None:
         ("noise: {force_N: much}", '"much" is not above 0 N'),
         ("noise: {force_N: 1.0e+300}", "1e+300 is above 1e+12 N"),
         ("noise: {force_N: 4e+5}", "400000 N is above "),
+        ("noise: {t_s: 1}", "rig.yaml:1: noise.t_s: the clock is taken for exact"),
         ("noise: 5", "rig.yaml:1: noise: 5 is not a mapping"),
         ("runs: {h0.1: {kind: step}}", 'no such run; did you mean "h0.10"?'),
         ("runs: {h0.10: {kind: isometrc}}", 'did you mean "isometric"?'),
