@@ -135,7 +135,7 @@ def _tell(version: "Version", taken_up: bool, *, as_json: bool) -> None:
     if taken_up:
         typer.echo("the daemon that runs goes by it from now on")
     else:
-        typer.echo("no daemon runs; one goes by it from its next start")
+        typer.echo("no control runs here; it goes by it from its next start")
 
 
 def _listed(shelf: "Shelf") -> Iterator[str]:

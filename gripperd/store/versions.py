@@ -21,6 +21,7 @@ from gripperd.config.sealed import check_seal, sealed
 from gripperd.errors import ConfigError, NotFound, Refused
 from gripperd.store.difference import difference
 from gripperd.store.pointer import Pointer, locked, read_pointer, write_pointer
+from gripperd.store.records import writing
 from gripperd.store.version import Shelf, Version
 
 ACTIVE = "active"
@@ -276,12 +277,8 @@ class Versions:
 
     @contextmanager
     def _changing(self) -> Iterator[None]:
-        try:
-            with locked(self._folder):
-                yield
-        except OSError as error:
-            message = f"{self._folder}: nothing was changed: {error.strerror}"
-            raise Refused(message, code="storage-failed") from error
+        with writing(self._folder), locked(self._folder):
+            yield
 
 
 def _readable(draft: Path) -> None:

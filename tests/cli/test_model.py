@@ -31,7 +31,7 @@ PREDICT = ("predict", "--current", "10.7", "--diameter", "65", "--json")
 FRICTION = 20.0
 """Of the version under test: at a ratio of 4 it takes 5 N from each jaw. [N]"""
 
-NEXT_START = "no daemon runs; one goes by it from its next start"
+NEXT_START = "no control runs here; it goes by it from its next start"
 
 Run = Callable[..., str]
 

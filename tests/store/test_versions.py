@@ -270,8 +270,22 @@ def test_a_full_or_closed_disk_changes_nothing(
 ) -> None:
     (tmp_path / "models").mkdir()
     (tmp_path / "models/reference").write_text("a file where the folder should be")
-    with pytest.raises(Refused, match="nothing was changed"):
+    with pytest.raises(Refused, match="nothing was kept"):
         add(versions, provenance)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs the full device")
+@pytest.mark.parametrize("draft", [".1.draft", ".active.draft"])
+def test_a_full_disk_is_told_as_such(
+    versions: Versions, provenance: Provenance, tmp_path: Path, draft: str
+) -> None:
+    folder = tmp_path / "models/reference"
+    folder.mkdir(parents=True)
+    (folder / draft).symlink_to("/dev/full")
+    with pytest.raises(Refused, match="nothing was kept: No space left") as refused:
+        add(versions, provenance)
+    assert refused.value.code == "storage-full"
+    assert versions.all().versions == (versions.get(0),)
 
 
 def _add_some(folder: Path, provenance: Provenance) -> list[int]:
@@ -284,7 +298,7 @@ def test_where_the_number_is_not_noted_no_version_is_kept(
     versions: Versions, provenance: Provenance, tmp_path: Path
 ) -> None:
     (tmp_path / "models/reference/.active.draft").mkdir(parents=True)
-    with pytest.raises(Refused, match="nothing was changed"):
+    with pytest.raises(Refused, match="nothing was kept"):
         add(versions, provenance)
     assert [one.number for one in versions.all().versions] == [0]
 
