@@ -29,10 +29,10 @@ PERSISTENCES = (0.5, 0.6, 0.7, 0.8, 0.9)
 SHARES = (0.2, 0.4, 0.6, 0.8, 1.0)
 """Of the variance that persists so, tried. [-]"""
 PLAIN = 3.0
-"""Log likelihood that speaks for another colour than neighbours tell. [nat]"""
+"""Log likelihood that must speak against the colour that neighbours tell. [nat]"""
 CAUTION = 0.7
-"""Share of the posterior below the size that is used: too small a drift makes false
-alarms, too large a one only hides small effects. [-]"""
+"""Share of the posterior below the size that is used: too little drift or wander makes
+false alarms, too much only hides small effects. [-]"""
 
 
 class Quiet(NamedTuple):
@@ -98,8 +98,13 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
     scores = [
         sum(_likelihood(replace(one, drift=drift), q) for q in quiet) for one in tried
     ]
-    best = int(np.argmax(scores))
-    return tried[best] if scores[best] > scores[0] + PLAIN else noise
+    scores[0] += PLAIN
+    if np.argmax(scores) == 0:
+        return noise
+    weights = np.exp(np.array(scores) - max(scores))
+    order = np.argsort([one.slow_variance for one in tried])
+    below = np.cumsum(weights[order]) / weights.sum()
+    return tried[order[np.searchsorted(below, CAUTION)]]
 
 
 def _likelihood(noise: Noise, quiet: Quiet) -> float:
