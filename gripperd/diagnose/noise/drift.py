@@ -104,7 +104,7 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
     weights = np.exp(np.array(scores) - max(scores))
     order = np.argsort([one.slow_variance for one in tried])
     below = np.cumsum(weights[order]) / weights.sum()
-    return tried[order[np.searchsorted(below, CAUTION)]]
+    return tried[int(order[np.searchsorted(below, CAUTION)])]
 
 
 def _likelihood(noise: Noise, quiet: Quiet) -> float:
