@@ -74,7 +74,7 @@ def with_drift(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise
     return replace(noise, drift=SIZES[size] * full_scale, memory=MEMORIES[memory])
 
 
-def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
+def coloured(noise: Noise, quiet: Sequence[Quiet]) -> Noise:
     """Give a noise the colour that quiet stretches show.
 
     Neighbours tell the difference of two readings, ``s² (1 - r)`` of an
@@ -84,8 +84,10 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
 
     Parameters
     ----------
-    noise, quiet, full_scale
-        As in :func:`with_drift`.
+    noise
+        With its drift: what that explains is no colour.
+    quiet
+        As of :func:`with_drift`.
     """
     apart = noise.std**2 * (1 - noise.correlation)
     tried = [noise]
@@ -94,10 +96,7 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
             r = share * persistence
             std = float(np.sqrt(apart / (1 - r)))
             tried.append(replace(noise, std=std, correlation=r, white=1 - share))
-    drift = ALLOWANCE * full_scale
-    scores = [
-        sum(_likelihood(replace(one, drift=drift), q) for q in quiet) for one in tried
-    ]
+    scores = [sum(_likelihood(one, q) for q in quiet) for one in tried]
     scores[0] += PLAIN
     if np.argmax(scores) == 0:
         return noise

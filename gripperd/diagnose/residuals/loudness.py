@@ -13,7 +13,7 @@ from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.diagnose.residuals.doubt import of_length
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.quiet import driven, repeated, vented
+from gripperd.diagnose.residuals.quiet import driven, moved, repeated, vented
 from gripperd.model.effect import Signal
 
 POINTS = 0.002
@@ -68,9 +68,14 @@ def noises_of(
             *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
         ]  # fmt: skip
         quiet = shortened(quiet or repeated(*asked, first=True))
+        full_scale = problem.full_scale[signal]
+        noise = with_drift(noise, quiet, full_scale)
         if not is_table(problem.courses):
-            noise = coloured(noise, quiet, problem.full_scale[signal])
-        found[signal] = with_drift(noise, quiet, problem.full_scale[signal])
+            told = quiet
+            if signal is Signal.OPENING and not quiet:
+                told = shortened(moved(*asked))
+            noise = with_drift(coloured(noise, told), quiet, full_scale)
+        found[signal] = noise
     return _handed_on(found, problem)
 
 

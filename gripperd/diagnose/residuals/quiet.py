@@ -17,6 +17,8 @@ HELD = 0.03
 """Within this share of the highest pressure it is held. [-]"""
 LONG_ENOUGH = 10.0
 """A shorter hold says nothing about drift. [s]"""
+ENOUGH = 30
+"""Samples of a sweep of which a few regressors take little."""
 FIRST = 1.0
 """Inflations finished before any but the first. [-]"""
 
@@ -108,6 +110,35 @@ def repeated(
                 )
             )
     return found
+
+
+def moved(problem: Problem, residuals: list[Array], indices: list[int]) -> list[Quiet]:
+    """Sweeps in which jaws move, but for what their way and their pull tell of them.
+
+    Parameters
+    ----------
+    problem, residuals, indices
+        As of :func:`driven`.
+    """
+    return [
+        Quiet(problem.times[i], residuals[i], _ways(problem, i))
+        for i in indices
+        if residuals[i].size > ENOUGH
+    ]
+
+
+def _ways(problem: Problem, index: int) -> Array:
+    """Whatever acts in a linkage is near a sum of these; shape ``(n, k)``. [-]."""
+    block = problem.blocks[index]
+    course = problem.courses[block.course]
+    way, pull, pressure = (
+        course.level(name)[block.good] for name in ("contraction", "force", "pressure")
+    )
+    side = course.direction[block.good]
+    every = way, way**2, pull, pressure, side, side * way
+    known = [one for one in every if np.isfinite(one).all() and np.ptp(one) > 0]
+    ones = np.ones_like(way)
+    return np.column_stack([ones, *((one - one.mean()) / np.ptp(one) for one in known)])
 
 
 def _shared(one: Mask, other: Mask) -> tuple[Mask, Mask]:

@@ -23,6 +23,7 @@ from tests.diagnose.small import (
     Hidden,
     Moment,
     altered,
+    moments,
     nothing,
     recording,
     rubbing,
@@ -212,6 +213,32 @@ def test_a_noisy_force_hides_no_contact(gripping: Problem) -> None:
         for one in (gripping, loud)
     )
     assert noisy > 0.9 * plain
+
+
+@pytest.mark.parametrize("play", [0.0, 2e-3])
+def test_what_persists_in_an_opening_is_told_where_jaws_move(play: float) -> None:
+    """Three isobars, neither a hold nor a repeat; play is no noise."""
+    true = Noise(0.5e-3, 0.56, white=0.3)
+    runs = []
+    plain = recording()
+    for run in plain.runs:
+        columns = dict(run.columns)
+        if run.name in ("d", "e", "f"):
+            moment = moments()[run.name]
+            # The rest length of the muscle is 0.25 m, the ratio 4.
+            clean = 0.085 - 4.0 * 0.25 * moment.contraction + play * moment.direction
+            share, seed = 1 - true.white, ord(run.name)
+            columns["opening"] = (
+                clean
+                + noise(len(run), true.std * share**0.5, seed, 0.8)
+                + noise(len(run), true.std * true.white**0.5, 50 + seed)
+            )
+        else:
+            columns["opening"] = np.full(len(run), np.nan)
+        runs.append(Run(run.name, columns, run.kind))
+    problem = problem_of(Recording("jaws", "0" * 64, tuple(runs)), JAWED, {})
+    found = problem.noises[Signal.OPENING]
+    assert found.slow_variance == pytest.approx(true.slow_variance, rel=0.5)
 
 
 def _null(problem: Problem) -> Point:
