@@ -9,7 +9,7 @@ References
        J. Am. Stat. Assoc. 72(358), 320-338, 1977: restricted likelihood.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -28,8 +28,13 @@ ALLOWANCE = 0.001
 PERSISTENCES = (0.5, 0.6, 0.7, 0.8, 0.9)
 SHARES = (0.2, 0.4, 0.6, 0.8, 1.0)
 """Of the variance that persists so, tried. [-]"""
+FAINTER, LASTING = 1 / 3, 60.0
+"""Size of a drift beside a colour, of that without, and its memory. [-], [s]"""
 PLAIN = 3.0
 """Log likelihood that must speak against the colour that neighbours tell. [nat]"""
+WANDERS = 0.01
+"""What persists is no noise of a sensor above that share of full scale: theirs is 0.2
+to 0.6 %. [-]"""
 CAUTION = 0.7
 """Share of the posterior below the size that is used: too little drift or wander makes
 false alarms, too much only hides small effects. [-]"""
@@ -74,7 +79,7 @@ def with_drift(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise
     return replace(noise, drift=SIZES[size] * full_scale, memory=MEMORIES[memory])
 
 
-def coloured(noise: Noise, quiet: Sequence[Quiet]) -> Noise:
+def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
     """Give a noise the colour that quiet stretches show.
 
     Neighbours tell the difference of two readings, ``s² (1 - r)`` of an
@@ -86,7 +91,7 @@ def coloured(noise: Noise, quiet: Sequence[Quiet]) -> Noise:
     ----------
     noise
         With its drift: what that explains is no colour.
-    quiet
+    quiet, full_scale
         As of :func:`with_drift`.
     """
     apart = noise.std**2 * (1 - noise.correlation)
@@ -96,14 +101,25 @@ def coloured(noise: Noise, quiet: Sequence[Quiet]) -> Noise:
             r = share * persistence
             std = float(np.sqrt(apart / (1 - r)))
             tried.append(replace(noise, std=std, correlation=r, white=1 - share))
-    scores = [sum(_likelihood(one, q) for q in quiet) for one in tried]
+    scores = [max(_likelihoods(one, quiet)) for one in tried]
     scores[0] += PLAIN
-    if np.argmax(scores) == 0:
+    best = tried[int(np.argmax(scores))]
+    if best is noise or best.std * (1 - best.white) ** 0.5 > WANDERS * full_scale:
         return noise
     weights = np.exp(np.array(scores) - max(scores))
     order = np.argsort([one.slow_variance for one in tried])
     below = np.cumsum(weights[order]) / weights.sum()
     return tried[int(order[np.searchsorted(below, CAUTION)])]
+
+
+def _likelihoods(noise: Noise, quiet: Sequence[Quiet]) -> Iterator[float]:
+    """Of a colour with the drift that was found without it, and with a fainter one.
+
+    What wanders fast is taken for a drift of short memory as long as there is nothing
+    else to take it for.
+    """
+    for one in (noise, replace(noise, drift=FAINTER * noise.drift, memory=LASTING)):
+        yield sum(_likelihood(one, each) for each in quiet)
 
 
 def _likelihood(noise: Noise, quiet: Quiet) -> float:

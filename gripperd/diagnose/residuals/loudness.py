@@ -71,10 +71,9 @@ def noises_of(
         full_scale = problem.full_scale[signal]
         noise = with_drift(noise, quiet, full_scale)
         if not is_table(problem.courses):
-            told = quiet
-            if signal is Signal.OPENING and not quiet:
-                told = shortened(moved(*asked))
-            noise = with_drift(coloured(noise, told), quiet, full_scale)
+            # A joint with play begins each sweep elsewhere: repeats of one differ.
+            told = shortened(moved(*asked)) if signal is Signal.OPENING else quiet
+            noise = with_drift(coloured(noise, told, full_scale), quiet, full_scale)
         found[signal] = noise
     return _handed_on(found, problem)
 

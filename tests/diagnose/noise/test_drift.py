@@ -71,7 +71,7 @@ def test_what_persists_under_white_noise_is_found_in_holds(
     ]
     neighbours = quick_noise([each.residual for each in holds])
     true = Noise(2.0, share * persistence, white=1 - share)
-    found = coloured(neighbours, holds)
+    found = coloured(neighbours, holds, FULL_SCALE)
     assert found.slow_variance == pytest.approx(true.slow_variance, rel=0.4)
     assert neighbours.slow_variance < 0.6 * true.slow_variance
 
@@ -84,7 +84,17 @@ def test_noise_that_is_known_by_its_neighbours_stays_as_it_is(
     holds = [
         hold(TIME, noise(800, 2.0, s, correlation), creeps=False) for s in range(4)
     ]
-    assert coloured(law, holds) == law
+    assert coloured(law, holds, FULL_SCALE) == law
+
+
+def test_what_wanders_more_than_any_sensor_is_no_noise() -> None:
+    holds = [
+        hold(TIME, noise(800, 15.0, s, 0.8) + noise(800, 2.0, 50 + s), creeps=False)
+        for s in range(4)
+    ]
+    neighbours = quick_noise([each.residual for each in holds])
+    assert coloured(neighbours, holds, FULL_SCALE) == neighbours
+    assert coloured(neighbours, holds, 3 * FULL_SCALE) != neighbours
 
 
 def test_without_a_hold_some_drift_is_assumed() -> None:
