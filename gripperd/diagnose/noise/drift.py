@@ -32,9 +32,6 @@ FAINTER, LASTING = 1 / 3, 60.0
 """Size of a drift beside a colour, of that without, and its memory. [-], [s]"""
 PLAIN = 3.0
 """Log likelihood that must speak against the colour that neighbours tell. [nat]"""
-WANDERS = 0.01
-"""What persists is no noise of a sensor above that share of full scale: theirs is 0.2
-to 0.6 %. [-]"""
 CAUTION = 0.7
 """Share of the posterior below the size that is used: too little drift or wander makes
 false alarms, too much only hides small effects. [-]"""
@@ -79,7 +76,7 @@ def with_drift(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise
     return replace(noise, drift=SIZES[size] * full_scale, memory=MEMORIES[memory])
 
 
-def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
+def coloured(noise: Noise, quiet: Sequence[Quiet], most: float) -> Noise:
     """Give a noise the colour that quiet stretches show.
 
     Neighbours tell the difference of two readings, ``s² (1 - r)`` of an
@@ -91,8 +88,10 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
     ----------
     noise
         With its drift: what that explains is no colour.
-    quiet, full_scale
+    quiet
         As of :func:`with_drift`.
+    most
+        Standard deviation above which what persists is no noise. [unit of the noise]
     """
     apart = noise.std**2 * (1 - noise.correlation)
     tried = [noise]
@@ -104,7 +103,7 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
     scores = [max(_likelihoods(one, quiet)) for one in tried]
     scores[0] += PLAIN
     best = tried[int(np.argmax(scores))]
-    if best is noise or best.std * (1 - best.white) ** 0.5 > WANDERS * full_scale:
+    if best is noise or best.std * (1 - best.white) ** 0.5 > most:
         return noise
     weights = np.exp(np.array(scores) - max(scores))
     order = np.argsort([one.slow_variance for one in tried])

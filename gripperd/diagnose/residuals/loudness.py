@@ -26,6 +26,9 @@ says nothing of the joints: reversibility of a transducer of class 1, ISO 376. [
 QUIETER = 0.1
 """Share of a noise from which neighbours in a residual know better: it is told from
 readings that may rise too fast for them. [-]"""
+WANDERS = 0.01
+"""What persists is no noise of a sensor above that share of full scale: theirs is 0.2
+to 0.6 %. [-]"""
 TURNS = 3.0
 """Time in which a grip that rises turns to one that falls. [s]"""
 
@@ -73,9 +76,20 @@ def noises_of(
         if not is_table(problem.courses):
             # A joint with play begins each sweep elsewhere: repeats of one differ.
             told = shortened(moved(*asked)) if signal is Signal.OPENING else quiet
-            noise = with_drift(coloured(noise, told, full_scale), quiet, full_scale)
+            noise = coloured(noise, told, WANDERS * _ranges(problem, signal))
+            noise = with_drift(noise, quiet, full_scale)
         found[signal] = noise
     return _handed_on(found, problem)
+
+
+def _ranges(problem: Problem, signal: Signal) -> float:
+    """Full scale of a signal; of an opening and the length it follows. [SI]."""
+    linkage, length = problem.model.linkage, problem.model.muscle.rest_length
+    if signal is not Signal.OPENING or linkage is None:
+        return problem.full_scale[signal]
+    furthest = problem.highest.get(Signal.CONTRACTION, 0.0)
+    closed = float(linkage.opening(furthest, length))
+    return problem.full_scale[signal] + linkage.open_width - closed
 
 
 def _share(problem: Problem, index: int) -> float:

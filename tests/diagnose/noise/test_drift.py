@@ -17,6 +17,7 @@ from tests.diagnose.sweep import noise
 TIME: Array = 0.25 * np.arange(800.0)
 QUICK = Noise(2.0, 0.0)
 FULL_SCALE = 1000.0
+MOST = 10.0
 
 
 def _wander(std: float, memory: float, seed: int) -> Array:
@@ -71,7 +72,7 @@ def test_what_persists_under_white_noise_is_found_in_holds(
     ]
     neighbours = quick_noise([each.residual for each in holds])
     true = Noise(2.0, share * persistence, white=1 - share)
-    found = coloured(neighbours, holds, FULL_SCALE)
+    found = coloured(neighbours, holds, MOST)
     assert found.slow_variance == pytest.approx(true.slow_variance, rel=0.4)
     assert neighbours.slow_variance < 0.6 * true.slow_variance
 
@@ -84,7 +85,7 @@ def test_noise_that_is_known_by_its_neighbours_stays_as_it_is(
     holds = [
         hold(TIME, noise(800, 2.0, s, correlation), creeps=False) for s in range(4)
     ]
-    assert coloured(law, holds, FULL_SCALE) == law
+    assert coloured(law, holds, MOST) == law
 
 
 def test_what_wanders_more_than_any_sensor_is_no_noise() -> None:
@@ -93,8 +94,8 @@ def test_what_wanders_more_than_any_sensor_is_no_noise() -> None:
         for s in range(4)
     ]
     neighbours = quick_noise([each.residual for each in holds])
-    assert coloured(neighbours, holds, FULL_SCALE) == neighbours
-    assert coloured(neighbours, holds, 3 * FULL_SCALE) != neighbours
+    assert coloured(neighbours, holds, MOST) == neighbours
+    assert coloured(neighbours, holds, 2 * MOST) != neighbours
 
 
 def test_without_a_hold_some_drift_is_assumed() -> None:
