@@ -63,4 +63,4 @@ def test_what_was_kept_is_not_kept_again(
     again = accept(found, model, config)
     assert again == [f"already {said[0]}", *said[1:]]
     there = sorted(one.name for one in kept.parent.glob("[!.]*.yaml"))
-    assert there == ["0.yaml", "1.yaml"]
+    assert there == ["0.yaml", "1.yaml", "active.yaml"]

@@ -30,6 +30,8 @@ SHARES = (0.2, 0.4, 0.6, 0.8, 1.0)
 """Of the variance that persists so, tried. [-]"""
 FAINTER, LASTING = 1 / 3, 60.0
 """Size of a drift beside a colour, of that without, and its memory. [-], [s]"""
+PLENTY = 200
+"""Samples from which a colour is told: it has two numbers more."""
 PLAIN = 3.0
 """Log likelihood that must speak against the colour that neighbours tell. [nat]"""
 CAUTION = 0.7
@@ -93,6 +95,8 @@ def coloured(noise: Noise, quiet: Sequence[Quiet], most: float) -> Noise:
     most
         Standard deviation above which what persists is no noise. [unit of the noise]
     """
+    if sum(each.time.size for each in quiet) < PLENTY:
+        return noise
     apart = noise.std**2 * (1 - noise.correlation)
     tried = [noise]
     for persistence in PERSISTENCES:

@@ -88,6 +88,13 @@ def test_noise_that_is_known_by_its_neighbours_stays_as_it_is(
     assert coloured(law, holds, MOST) == law
 
 
+def test_few_samples_tell_no_colour() -> None:
+    long = hold(TIME, noise(800, 2.0, 1, 0.8) + noise(800, 2.0, 50), creeps=False)
+    law = quick_noise([long.residual])
+    assert coloured(law, [long], MOST) != law
+    assert coloured(law, shortened([long], 150), MOST) == law
+
+
 def test_what_wanders_more_than_any_sensor_is_no_noise() -> None:
     holds = [
         hold(TIME, noise(800, 15.0, s, 0.8) + noise(800, 2.0, 50 + s), creeps=False)
