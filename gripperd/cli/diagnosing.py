@@ -58,6 +58,11 @@ def diagnose(  # noqa: PLR0913  (its options)
         if config is not None:
             read["the configuration"] = config
         check_outputs(_outputs(as_json, report), read)
+        if add:
+            from gripperd.cli.parentage import parent_of
+
+            # What cannot be kept is refused before anybody waits for it.
+            parent_of(asked, config)
         found = _found(recording, asked, seed)
         if as_json is not None:
             _write_json(found, asked, as_json)
@@ -70,9 +75,8 @@ def diagnose(  # noqa: PLR0913  (its options)
         if add:
             from gripperd.cli.acceptance import accept
 
-            lines = accept(found, asked, config)
-            if told:
-                typer.echo("\n".join(lines))
+            # JSON on stdout stands alone there, but what was kept is told.
+            typer.echo("\n".join(accept(found, asked, config)), err=not told)
 
 
 def _asked(model: Path | None, config: Path | None, gripper: str | None) -> "ModelFile":

@@ -69,7 +69,8 @@ def held_out(found: tuple[Trace, ...], column: Column) -> Picture | None:
         " predicted, below the difference. Lines are broken where samples are missing"
         " or passed over."
     )
-    alt = f"{len(shown)} sweeps with the measurement and three predictions each."
+    made = len(shown[0].expected)
+    alt = f"The measurement and {made} predictions of each sweep: {len(shown)} of them."
     return Picture("held_out", "Sweeps that took no part", caption, alt, drawing)
 
 

@@ -1,6 +1,7 @@
 """How pictures look, and how they become files and parts of a page."""
 
 import re
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
@@ -107,21 +108,31 @@ def note(
 def png(figure: Figure) -> bytes:
     """The picture in pixels."""
     out = BytesIO()
-    figure.savefig(out, format="png", metadata={"Software": None})
+    with _boxes():
+        figure.savefig(out, format="png", metadata={"Software": None})
     return out.getvalue()
 
 
 def svg(figure: Figure, *, tight: bool = False) -> str:
     """The picture as a drawing that scales."""
     out = BytesIO()
-    figure.savefig(
-        out,
-        format="svg",
-        metadata={"Date": None, "Creator": None},
-        bbox_inches="tight" if tight else None,
-        pad_inches=0.02,
-    )
+    with _boxes():
+        figure.savefig(
+            out,
+            format="svg",
+            metadata={"Date": None, "Creator": None},
+            bbox_inches="tight" if tight else None,
+            pad_inches=0.02,
+        )
     return out.getvalue().decode()
+
+
+@contextmanager
+def _boxes() -> Iterator[None]:
+    """Draw a box for a letter that the font lacks, and say nothing: a table has it."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", r"Glyph \d+ .*missing", UserWarning)
+        yield
 
 
 def inline(drawing: str, name: str, alt: str, attributes: str = "") -> str:

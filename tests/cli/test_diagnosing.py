@@ -104,6 +104,19 @@ def test_json_on_stdout_stands_alone(done: Done) -> None:
     assert json.loads(ended.stdout)["verdict"] == "none"
 
 
+def test_beside_json_on_stdout_it_is_told_what_was_kept(
+    done: Done, tmp_path: Path
+) -> None:
+    ended = gripperd(
+        "diagnose", done.at("rig.csv"), "--model", done.at("model.yaml"),
+        "--json", "-", "--apply", "--config", str(settings_file(tmp_path)),
+    )  # fmt: skip
+    assert ended.returncode == 0, ended.stderr
+    assert json.loads(ended.stdout)["verdict"] == "named"
+    kept = tmp_path / "state/models/as-drawn/1.yaml"
+    assert f"kept as as-drawn-1: {kept}" in ended.stderr
+
+
 def test_nothing_named_is_nothing_applied(done: Done) -> None:
     ended = gripperd(
         "diagnose", short(done), "--model", done.at("model.yaml"), "--apply",
@@ -148,6 +161,8 @@ def test_a_model_of_the_same_name_is_not_mixed_with_the_configured(done: Done) -
     )  # fmt: skip
     assert ended.returncode == 1
     assert "another model is configured as reference" in ended.stderr
+    # Before the work, not after it.
+    assert ended.stdout == ""
 
 
 def cut(column: str) -> Callable[[str], str]:

@@ -13,6 +13,7 @@ from gripperd.model.track import Array
 from gripperd.report.curves import held_out
 from gripperd.report.trace import State, Trace, elided, stretches, traces
 from gripperd.report.where import over_time, spaced
+from gripperd.reproduce.drawing import png, svg
 from tests.demonstration import STEP, example
 from tests.diagnose.small import MODEL, Moment, recording
 
@@ -60,6 +61,14 @@ def test_names_of_runs_are_no_formulas(found: tuple[Trace, ...]) -> None:
     ):
         assert picture is not None
         picture.drawing.draw_without_rendering()
+
+
+def test_letters_that_no_font_has_raise_no_warning(found: tuple[Trace, ...]) -> None:
+    named = tuple(replace(one, run="日本語") for one in found)
+    picture = held_out(named, BY_QUANTITY["force"])
+    assert picture is not None
+    assert svg(picture.drawing).endswith("</svg>\n")
+    assert png(picture.drawing).startswith(b"\x89PNG")
 
 
 def test_pictures_show_the_residuals_of_which_the_gap_is_told(

@@ -108,7 +108,8 @@ def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> st
     if basis and basis not in {effect.name for effect in problem.model.effects}:
         return f"{basis} is not in the model"
     if kind.turns and not _turned(problem, kind.turns, plain.signal):
-        gripped = " under a grip" if _is_felt(problem, plain.signal) else ""
+        felt = _is_felt(problem, plain.signal)
+        gripped = " under a grip in what is fitted" if felt else ""
         return f"the {NAMES.get(kind.turns, kind.turns)} never went both ways{gripped}"
     if is_table(problem.courses) and (kind.timed or plain.rest().size):
         return "the recording is a table of settled points, without time"

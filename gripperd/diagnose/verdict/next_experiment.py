@@ -87,9 +87,9 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
             _, sweep = max(rates, key=lambda known: known[0])
             return Proposal(sweep.kind, f"{does} {names}", sweep.title, _plan(sweep))
     why = (
-        f"no sweep up to {top / 1e3:.0f} kPa and a contraction of {far:.3g} tells"
-        f" {names}: go further, measure one of them on its own, or check the"
-        " sensors with a reference"
+        f"no sweep that was tried, up to {top / 1e3:.0f} kPa and a contraction of"
+        f" {far:.3g}, tells {names}: go further, measure one of them on its own, or"
+        " check the sensors with a reference"
     )
     return Proposal(None, why, "", {})
 
@@ -103,47 +103,46 @@ def _separations(
     problem: Problem, sweep: Sweep, one: Rival, other: Rival
 ) -> tuple[float, float]:
     """Rise of the misfit of each rival if the other is true, after refitting."""
+    return _rise(problem, sweep, one, other), _rise(problem, sweep, other, one)
+
+
+def _rise(problem: Problem, sweep: Sweep, rival: Rival, true: Rival) -> float:
     course = _course(problem, sweep)
     planned = replace(problem, courses=(course,), kept=(), dwells=(), slack=-np.inf)
     if np.isfinite(problem.slack):
-        # Of a muscle that cannot push no sample tells in which either has it slack.
-        least = _least(planned, one, other)
-        measured = {**course.measured, **least}
+        # Of a muscle that cannot push no sample tells in which it is slack.
+        read = _read(planned, true)
+        measured = {**course.measured, **read}
         smooth = {
-            name: level for name, level in course.smooth.items() if name not in least
+            name: level for name, level in course.smooth.items() if name not in read
         }
         taut = replace(course, measured=measured, smooth=smooth)
         planned = replace(planned, courses=(taut,), slack=problem.slack)
     if not planned.blocks:
-        return 0.0, 0.0
-    a = planned.expected(planned.explanation(one.fit.point))
-    b = planned.expected(planned.explanation(other.fit.point))
+        return 0.0
+    a = planned.expected(planned.explanation(rival.fit.point))
+    b = planned.expected(planned.explanation(true.fit.point))
     apart = np.concatenate(
         [
             planned.white([x - y], i)[:, 0]
             for i, (x, y) in enumerate(zip(a, b, strict=True))
         ]
     )
-    rises = []
-    for rival in (one, other):
-        columns = slopes(planned, rival.fit.point, rival.fit.coordinates)
-        known = np.linalg.inv(rival.fit.posterior)
-        moments = columns.T @ apart
-        refit = np.linalg.solve(known + columns.T @ columns, moments)
-        rises.append(float(apart @ apart - moments @ refit))
-    return rises[0], rises[1]
+    columns = slopes(planned, rival.fit.point, rival.fit.coordinates)
+    known = np.linalg.inv(rival.fit.posterior)
+    moments = columns.T @ apart
+    refit = np.linalg.solve(known + columns.T @ columns, moments)
+    return float(apart @ apart - moments @ refit)
 
 
-def _least(planned: Problem, one: Rival, other: Rival) -> dict[str, Array]:
-    """Give the lower force that the two expect, by the name of its column. [N]."""
+def _read(planned: Problem, true: Rival) -> dict[str, Array]:
+    """Give the force that a cell would read, by the name of its column. [N]."""
     found: dict[str, Array] = {}
-    expected = [
-        planned.expected(planned.explanation(rival.fit.point)) for rival in (one, other)
-    ]
-    for block, *forces in zip(planned.blocks, *expected, strict=True):
+    expected = planned.expected(planned.explanation(true.fit.point))
+    for block, force in zip(planned.blocks, expected, strict=True):
         if block.signal is Signal.FORCE:
             found["force"] = np.full(len(planned.courses[0]), np.nan)
-            found["force"][block.good] = np.minimum(*forces)
+            found["force"][block.good] = force
     return found
 
 
@@ -185,7 +184,12 @@ def _reach(problem: Problem, told: Rival) -> tuple[float, float]:
         top = min(top, regulator.pressure_high)
     lengths = [c.level("contraction") for c in problem.courses]
     longest = [float(np.nanmax(h)) for h in lengths if np.isfinite(h).any()]
-    return top, float(np.clip(max(longest, default=0.2), *FAR))
+    far = float(np.clip(max(longest, default=0.2), *FAR))
+    if problem.is_blind and (linkage := problem.model.linkage):
+        # No muscle in a gripper goes beyond jaws that have met.
+        met = linkage.contraction(0.0, problem.model.muscle.rest_length)
+        far = min(far, float(met))
+    return top, far
 
 
 def _sweeps(problem: Problem, top: float, far: float) -> Iterator[Sweep]:

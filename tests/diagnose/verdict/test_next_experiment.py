@@ -11,13 +11,20 @@ from gripperd.diagnose.readings.recording import Kind
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.next_experiment import Proposal, proposal
+from gripperd.diagnose.verdict.next_experiment import (
+    WORTH,
+    Proposal,
+    _ramp,
+    _separations,
+    proposal,
+)
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
 from gripperd.effects.leak import Leak
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
+from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_gain import ValveGain
 from gripperd.model.effect import Effect
 from gripperd.model.track import Array
@@ -31,6 +38,7 @@ from tests.diagnose.small import (
     pinned,
     recording,
     rubbing,
+    threshold,
 )
 
 
@@ -153,7 +161,9 @@ def test_what_no_sweep_tells_apart_is_left_to_a_reference() -> None:
     found = proposal(problem, one, one)
     assert found.kind is None
     assert found.plan == {}
-    assert found.why.startswith("no sweep up to 500 kPa and a contraction of 0.2 tells")
+    assert found.why.startswith(
+        "no sweep that was tried, up to 500 kPa and a contraction of 0.2, tells"
+    )
     assert "reference" in found.why
 
 
@@ -203,6 +213,19 @@ def test_a_sweep_that_tells_one_way_round_alone_may_separate() -> None:
     found = _loops_apart(slack=600.0)
     assert found.kind is Kind.ISOMETRIC
     assert found.why == "may separate coulomb friction from presliding hysteresis"
+
+
+def test_a_cell_that_would_read_more_than_a_slack_muscle_may_tell() -> None:
+    """Up to 60 kPa a threshold leaves it slack, which the rival would not."""
+    problem = replace(_problem(threshold(40.0)), slack=60.0)
+    rivals = (
+        _rival(problem, ThresholdPressure(pressure=20e3)),
+        _rival(problem, ForceSensorBias(bias=-30.0)),
+    )
+    sweep = _ramp(Kind.ISOMETRIC, 60e3, 0.0, 30.0)
+    of_threshold, of_bias = _separations(problem, sweep, *rivals)
+    assert of_threshold > WORTH
+    assert of_bias == 0
 
 
 def test_a_leak_is_told_from_a_gain_by_a_hold() -> None:
