@@ -89,10 +89,10 @@ def test_noise_that_is_known_by_its_neighbours_stays_as_it_is(
 
 
 def test_few_samples_tell_no_colour() -> None:
-    long = hold(TIME, noise(800, 2.0, 1, 0.8) + noise(800, 2.0, 50), creeps=False)
+    long = hold(TIME, noise(800, 2.0, 0, 0.9) + noise(800, 2.0, 50), creeps=False)
     law = quick_noise([long.residual])
     assert coloured(law, [long], MOST) != law
-    assert coloured(law, shortened([long], 150), MOST) == law
+    assert coloured(law, shortened([long], 190), MOST) == law
 
 
 def test_what_wanders_more_than_any_sensor_is_no_noise() -> None:
