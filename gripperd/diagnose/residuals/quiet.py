@@ -19,6 +19,8 @@ LONG_ENOUGH = 10.0
 """A shorter hold says nothing about drift. [s]"""
 ENOUGH = 30
 """Samples of a sweep of which a few regressors take little."""
+APART = 0.01
+"""Size of what regressors have not in common, from which it is one more. [-]"""
 FIRST = 1.0
 """Inflations finished before any but the first. [-]"""
 
@@ -135,10 +137,13 @@ def _ways(problem: Problem, index: int) -> Array:
         course.level(name)[block.good] for name in ("contraction", "force", "pressure")
     )
     side = course.direction[block.good]
-    every = way, way**2, pull, pressure, side, side * way
-    known = [one for one in every if np.isfinite(one).all() and np.ptp(one) > 0]
+    ways = way, way**2, pull, pressure, side, side * way
+    known = [one for one in ways if np.isfinite(one).all() and np.ptp(one) > 0]
     ones = np.ones_like(way)
-    return np.column_stack([ones, *((one - one.mean()) / np.ptp(one) for one in known)])
+    every = [ones, *((one - one.mean()) / np.ptp(one) for one in known)]
+    # Of jaws that go freely way, pull and pressure are nearly the same.
+    axes, sizes, _ = np.linalg.svd(np.column_stack(every), full_matrices=False)
+    return np.asarray(axes[:, sizes > APART * sizes[0]])
 
 
 def _shared(one: Mask, other: Mask) -> tuple[Mask, Mask]:

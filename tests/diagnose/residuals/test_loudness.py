@@ -10,7 +10,7 @@ from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.loudness import _handed_on
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.quiet import repeated
+from gripperd.diagnose.residuals.quiet import moved, repeated
 from gripperd.diagnose.setup import problem_of
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -237,6 +237,13 @@ def test_what_persists_in_an_opening_is_told_where_jaws_move(play: float) -> Non
             columns["opening"] = np.full(len(run), np.nan)
         runs.append(Run(run.name, columns, run.kind))
     problem = problem_of(Recording("jaws", "0" * 64, tuple(runs)), JAWED, {})
+    residuals = problem.residuals(_null(problem))
+    openings = [
+        i for i, block in enumerate(problem.blocks) if block.signal is Signal.OPENING
+    ]
+    for each in moved(problem, residuals, openings):
+        # Way, pull and pressure go together there; one by one they are no more apart.
+        assert np.linalg.cond(each.regressors) == pytest.approx(1.0)
     found = problem.noises[Signal.OPENING]
     assert found.slow_variance == pytest.approx(true.slow_variance, rel=0.5)
 
