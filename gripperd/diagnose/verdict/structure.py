@@ -24,6 +24,8 @@ from gripperd.model.track import Array
 
 WAVES = 24
 """Slow components looked at along pressure and contraction."""
+TIME = "time"
+"""Way of looking at what nothing else is behind."""
 SLOW = 12
 """Slow components looked at along time, in each sweep."""
 
@@ -143,7 +145,7 @@ def _views(
     problem: Problem, white: Sequence[Array], signal: Signal
 ) -> Iterator[tuple[str, Array]]:
     indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
-    yield "time", np.concatenate([_cosines(white[i], SLOW) for i in indices])
+    yield TIME, np.concatenate([_cosines(white[i], SLOW) for i in indices])
     # A reading is no regressor of its own residual: they share their noise.
     first = "current" if signal is Signal.PRESSURE else "pressure"
     pieces = {

@@ -13,7 +13,9 @@ from gripperd.diagnose.verdict.conclude import (
     conclude,
     not_confirmed,
 )
+from gripperd.diagnose.verdict.conclude import _remaining as remaining
 from gripperd.diagnose.verdict.signature import signature
+from gripperd.diagnose.verdict.structure import Structure
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -173,3 +175,20 @@ def test_what_happens_in_a_sweep_that_took_no_part_alone_is_unexplained(
         assert f"force: {times:.1f} times its noise in what took no part" in (
             told.signature
         )
+
+
+@pytest.mark.parametrize(
+    ("along", "size", "remains"),
+    [
+        ("time", 0.0025, False),
+        ("time", 0.0035, True),
+        ("pressure", 0.0025, True),
+        ("pressure", 0.001, False),
+        ("time, at 0.8 Hz", 0.0025, True),
+    ],
+)
+def test_what_wanders_with_time_alone_must_be_larger_than_sensors_do(
+    along: str, size: float, *, remains: bool
+) -> None:
+    left = Structure(Signal.FORCE, along, 300.0, 1e-30, size, 0.1)
+    assert bool(remaining([left])) is remains
