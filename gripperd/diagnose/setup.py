@@ -7,7 +7,6 @@ import numpy as np
 
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.jaws import through_jaws, told_by_jaws
 from gripperd.diagnose.readings.recording import Recording
@@ -67,9 +66,7 @@ def problem_of(
         for signal in INPUTS
         if signal.value in noises
     }
-    taut = _slack(sweeps, loud)
-    taut += zero_of_slack(Problem(sweeps, model, (), loud), taut)
-    rough = Problem(sweeps, model, (), loud, taut)
+    rough = _with_slack(Problem(sweeps, model, (), loud))
     check_plausible(rough, recording.name)
     check_coherent(rough, recording.name)
     # What is left out later must not even tell, by its misfit, how loud noise is.
@@ -102,17 +99,22 @@ def _settled(
     return train.noises
 
 
-def _slack(sweeps: tuple[Course, ...], noises: Mapping[Signal, Noise]) -> float:
-    """Force below which a muscle that cannot push may be slack. [N].
+def _with_slack(rough: Problem) -> Problem:
+    """Tell below which force a muscle that cannot push may be slack.
 
-    A rig that measures negative forces holds the muscle: then nothing is slack.
+    A rig that measures negative forces holds the muscle: then nothing is slack, unless
+    it is the zero of its cell that is negative.
     """
-    force = np.concatenate([sweep.column("force") for sweep in sweeps])
+    force = np.concatenate([sweep.column("force") for sweep in rough.courses])
     force = force[np.isfinite(force)]
     if not force.size:
-        return -np.inf
+        return rough
     top = float(np.max(force))
     # Neighbours in a coarse table differ by far more than noise.
-    std = min(noises[Signal.FORCE].std, MOST_SLACK / SLACK * top)
-    pushes = np.mean(force < -max(SLACK * std, 0.03 * top)) > 0.004
-    return -np.inf if pushes else max(SLACK * std, 0.015 * top)
+    std = min(rough.noises[Signal.FORCE].std, MOST_SLACK / SLACK * top)
+    pushes = bool(np.mean(force < -max(SLACK * std, 0.03 * top)) > 0.004)
+    taut = max(SLACK * std, 0.015 * top)
+    zero = zero_of_slack(rough, taut, pushes=pushes)
+    if pushes and zero is None:
+        return rough
+    return replace(rough, slack=taut + (zero or 0.0), zero=zero or 0.0)

@@ -27,6 +27,7 @@ from tests.diagnose.small import (
     textbook,
     without,
 )
+from tests.diagnose.sweep import noise
 
 ALL = ("vented", "a", "b", "c", "d", "e", "b2", "f")
 
@@ -84,21 +85,39 @@ def _cord(reading: Callable[[Moment], Array]) -> Hidden:
 
 
 @pytest.mark.parametrize(
-    ("reading", "name"),
+    ("reading", "name", "most"),
     [
-        (lambda moment: 40.0 + 0.0 * moment.time, "force_sensor_bias"),
-        (lambda moment: 40.0 * moment.time / 500.0, "force_sensor_drift"),
+        (lambda moment: 40.0 + 0.0 * moment.time, "force_sensor_bias", 40.0),
+        (lambda moment: 40.0 * moment.time / 500.0, "force_sensor_drift", 40.0),
+        (lambda moment: -60.0 + 0.0 * moment.time, "force_sensor_bias", -60.0),
     ],
 )
 def test_a_cell_whose_zero_is_off_pulls_at_no_slack_cord(
-    reading: Callable[[Moment], Array], name: str
+    reading: Callable[[Moment], Array], name: str, most: float
 ) -> None:
     told = recording(_cord(reading))
-    assert 40.0 < problem_of(told, MODEL, {}).slack < 75.0
+    assert most < problem_of(told, MODEL, {}).slack < most + 35.0
     rivals = (name, "threshold_pressure", "nonlinear_elasticity", "tapered_ends")
     found = diagnose(told, MODEL, {}, {one: EFFECTS[one] for one in rivals})
     assert [entry.name for entry in found.named] == [name]
     assert found.verdict is Verdict.NAMED
+
+
+def test_a_muscle_that_is_held_and_pushes_is_not_slack() -> None:
+    """Vented at 4 % of contraction its rubber pushes with one force all the time."""
+    time = np.arange(900.0, 930.0, 0.5)
+    empty, way = np.zeros(time.size), np.ones(time.size)
+    force = textbook(Moment(time, empty, 0.04 + empty, way))
+    assert -120.0 < force.min() < -60.0
+    columns = {
+        "time": time,
+        "pressure": empty,
+        "contraction": 0.04 + empty,
+        "force": force + noise(time.size, 3.0, 7),
+    }
+    pulled = [run for run in recording(nothing).runs if run.name in "aef"]
+    held_down = Recording("held", "0" * 64, (*pulled, Run("pushed", columns)))
+    assert problem_of(held_down, MODEL, {}).slack == -np.inf
 
 
 def test_what_grows_with_the_length_is_no_zero_of_a_cell() -> None:

@@ -36,6 +36,8 @@ class Problem:
     noises: Mapping[Signal, Noise]
     slack: float = -np.inf
     """Force below which the muscle may be slack and tells nothing. [N]"""
+    zero: float = 0.0
+    """What a cell reads of a muscle that is slack. [N]"""
     inflations: Mapping[Signal, float] = field(default_factory=dict)
     """How much louder noises are taken than they were measured, in squares. [-]"""
     kept: tuple[Mask, ...] = ()
@@ -59,7 +61,7 @@ class Problem:
                 if signal is Signal.FORCE:
                     good &= course.level("force") > self.slack
                     # Where a force sets in, a trend may be off by more than the noise.
-                    good &= course.column("force") > self.slack / 2
+                    good &= course.column("force") > (self.slack + self.zero) / 2
                 if self.kept:
                     good &= self.kept[index]
                 if good.sum() >= 4:

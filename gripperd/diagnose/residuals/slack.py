@@ -23,27 +23,29 @@ MOST = 0.1
 """Share of the largest force by which the zero of a cell is off, at most. [-]"""
 
 
-def zero_of_slack(problem: Problem, taut: float) -> float:
-    """Tell what a cell reads of a muscle that hangs through, if it is above 0. [N].
+def zero_of_slack(problem: Problem, taut: float, *, pushes: bool) -> float | None:
+    """Tell what a cell reads of a muscle that hangs through. [N].
 
     Parameters
     ----------
     problem
         At the nominal constants, with all its readings.
     taut
-        Force from which a muscle is taut, were the zero right; -inf where it is held.
-        [N]
+        Force from which a muscle is taut, were the zero right. [N]
+    pushes
+        Whether it reads that a muscle pushes: a zero that is too low, if what it
+        reads stays the same where one that is held would push more and less.
 
     Returns
     -------
-    The highest such reading; 0 where it is near 0, nothing hangs through, or readings
-    differ.
+    The highest such reading, 0 if that is near 0; none where nothing hangs through, or
+    readings differ.
     """
     blocks = [
         index for index, b in enumerate(problem.blocks) if b.signal is Signal.FORCE
     ]
-    if not (np.isfinite(taut) and blocks):
-        return 0.0
+    if not blocks:
+        return None
     point = Point(np.zeros(len(problem.constants)))
     told = problem.expected(problem.explanation(point), frozenset({Signal.FORCE}))
     expected, measured, time = (
@@ -52,12 +54,17 @@ def zero_of_slack(problem: Problem, taut: float) -> float:
     )
     slack = expected < -PUSHES * taut
     if slack.sum() < FEWEST:
-        return 0.0
+        return None
+    expected, measured = expected[slack], measured[slack]
     clock = time[slack] - time[slack].mean()
     line = np.column_stack([np.ones_like(clock), clock])
-    known = line @ np.linalg.lstsq(line, measured[slack], rcond=None)[0]
-    left = float(np.std(measured[slack] - known))
+    known = line @ np.linalg.lstsq(line, measured, rcond=None)[0]
     zero = float(np.max(known))
-    noise = problem.noises[Signal.FORCE].std
-    is_off = NEAR * taut < zero < MOST * problem.full_scale[Signal.FORCE]
-    return zero if is_off and left < SAME * noise else 0.0
+    same = SAME * problem.noises[Signal.FORCE].std
+    pull = measured - expected
+    held = float(np.std(pull - line @ np.linalg.lstsq(line, pull, rcond=None)[0]))
+    if abs(zero) >= MOST * problem.full_scale[Signal.FORCE]:
+        return None
+    if np.std(measured - known) >= same or (pushes and held < same):
+        return None
+    return zero if abs(zero) > NEAR * taut else 0.0
