@@ -14,6 +14,7 @@ from functools import partial
 import numpy as np
 
 from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.travel import leaning
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.runs import Runs
@@ -120,11 +121,22 @@ def _rubbing(load: Array, run: Track) -> Array:
     But where a machine moves them against a pressure that is held, the load falls as
     they close, and rises as they open: there they rub the way they go.
     """
-    work = np.nan_to_num(np.diff(load) * np.diff(run.contraction))
+    held = _held(run)
+    work = np.diff(load) * np.diff(run.contraction)
+    work = np.nan_to_num(work)[held[1:] & held[:-1]]
     falls = -work.sum() > OPPOSED * np.abs(work).sum()
-    held = np.ptp(run.pressure) < HELD * np.max(np.abs(run.pressure))
-    driven = falls and held and np.ptp(run.contraction) > DRIVEN
-    return run.direction if driven else leaning(load)
+    driven = falls and np.ptp(run.contraction[held]) > DRIVEN
+    return np.where(held & driven, run.direction, leaning(load))
+
+
+def _held(run: Track) -> Mask:
+    """Samples near the pressure at which half of the way of a run is gone."""
+    way = np.abs(np.diff(run.contraction, prepend=run.contraction[:1]))
+    order = np.argsort(run.pressure)
+    gone = np.cumsum(np.nan_to_num(way)[order])
+    level = run.pressure[order[np.searchsorted(gone, gone[-1] / 2)]]
+    within = HELD / 2 * np.max(np.abs(run.pressure))
+    return np.asarray(np.abs(run.pressure - level) < within)
 
 
 def _strained(explanation: Explanation, track: Runs) -> Runs:

@@ -383,6 +383,25 @@ def test_where_a_machine_moves_jaws_the_grip_rubs_the_way_they_go(
     assert np.mean(np.abs(share - (1 - 0.1 * way))[clear] < 0.01) > 0.9
 
 
+def test_a_machine_may_move_jaws_of_a_muscle_that_was_filled_before() -> None:
+    """Filled in 100 samples it pulls more, and then less as it is let shorten."""
+    filled = np.linspace(0.0, 1.0, 100)
+    swing = 0.5 - 0.5 * np.cos(np.linspace(0.0, 4 * np.pi, 400))
+    way = np.r_[0.0 * filled, 0.06 * swing]
+    pull = np.r_[950.0 * filled, 950.0 - 400.0 * swing]
+    told = run(
+        pressure=np.r_[4e5 * filled, np.full(400, 4e5)] + noise(500, 1e3),
+        contraction=way + noise(500, 1e-4, 2), force=pull, grip=(pull - 240.0) / 4,
+    )  # fmt: skip
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    rubbing = JAWED.with_effect(LinkageFriction(loss=0.1))
+    rubbed, free = (_one(model, course, Signal.GRIP) for model in (rubbing, JAWED))
+    share = rubbed / np.maximum(free, 1.0)
+    np.testing.assert_allclose(share[60:95], 0.9)
+    for start, sign in ((100, 1), (200, -1), (300, 1), (400, -1)):
+        np.testing.assert_allclose(share[start + 15 : start + 85], 1 - 0.1 * sign)
+
+
 def _held(size: int = 201) -> tuple[Course, Array]:
     """A grasp read by a noisy force cell, its smooth column off by a cut corner."""
     force = 800.0 - 400.0 * np.abs(np.linspace(-1.0, 1.0, size))
