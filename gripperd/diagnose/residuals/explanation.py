@@ -38,6 +38,9 @@ class Explanation:
     linkage: Linkage | None
     effects: tuple[Effect, ...]
     at_rest: AtRest = AtRest.CARRIED
+    winding: float = 0.0
+    """Half the way back of what a frame that yields holds, which turns its friction
+    round; 0 where its pressure does. [-]"""
     zeros: Mapping[Signal, float] = field(default_factory=dict)
     """Small zero errors of sensors, within what any sensor has. [SI]"""
     rests: Mapping[int, float] = field(default_factory=dict)
@@ -46,6 +49,9 @@ class Explanation:
     """By how much better friction holds what rests than what slides. [-]"""
     skews: Mapping[Signal, float] = field(default_factory=dict)
     """How much earlier than the force a channel is sampled. [s]"""
+    vents: float | None = None
+    """Pressure of a regulator that is asked for nothing, whatever its line; none where
+    it keeps its line. [Pa]"""
     response: float = 0.0
     """Lag that any regulator has. [s]"""
     told_length: float | None = None

@@ -16,6 +16,8 @@ from gripperd.model.track import Array
 TURNED = MappingProxyType({AtRest.INFLATING: 0.01, AtRest.YIELDING: 0.025})
 """Half the way back of a pressure that turns friction round where nothing travels, as a
 share of its range: the latter is near one that nears its sign by e in each 2 %. [-]"""
+AWAKE = 5e3
+"""Pressure over which a regulator comes to its line that vents below it. [Pa]"""
 LEAST_TURNED = 3e3
 """The same, at least. [Pa]"""
 
@@ -40,6 +42,9 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
     zeros = explanation.zeros
     if regulator is not None:
         command = np.clip(regulator.pressure(course.column("current")), *span)
+        if explanation.vents is not None:
+            asleep = np.exp((span[0] - command) / AWAKE)
+            command -= (span[0] - explanation.vents) * asleep
     direction = sliding = directions(explanation, course, *places)
     if explanation.at_rest is AtRest.BLADDER:
         inflating = replace(explanation, at_rest=AtRest.INFLATING)
@@ -164,11 +169,15 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
         sign, known = explanation.rests.get(place, 1.0), found[piece]
         share = TURNED.get(explanation.at_rest, 0.0)
         pressure = course.level("pressure")[piece]
-        if share and not known.any() and np.isfinite(pressure).all():
-            turned = _inflating(pressure, sign, share)
-            found[piece] = turned * (1 + explanation.stiction)
-        else:
+        if known.any() or not (share and np.isfinite(pressure).all()):
             known[known == 0] = sign * (1 + explanation.stiction)
+            continue
+        if course.yields and explanation.winding:
+            way, radius = course.level("contraction")[piece], explanation.winding
+        else:
+            way, radius = pressure, turning(pressure, share)
+        turned = stop(way, radius, way[:1] - sign * radius) / radius
+        found[piece] = turned * (1 + explanation.stiction)
     return found
 
 
@@ -184,9 +193,3 @@ def _came(explanation: Explanation, course: Course, *places: int) -> Array:
 def turning(pressure: Array, share: float) -> float:
     """Half the way back that turns friction round where nothing travels. [Pa]."""
     return max(share * float(np.ptp(pressure)), LEAST_TURNED)
-
-
-def _inflating(pressure: Array, sign: float, share: float) -> Array:
-    """Sign of friction that turns with a pressure, from one as it came. [-1..1]."""
-    radius = turning(pressure, share)
-    return stop(pressure, radius, pressure[:1] - sign * radius) / radius

@@ -7,23 +7,25 @@ way. A wrong sign would look like an effect.
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from gripperd.diagnose.fit.candidates import WRONG, Candidate
-from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, removed
-from gripperd.diagnose.residuals.explanation import AtRest, Explanation
-from gripperd.diagnose.residuals.point import Point
+from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.stages import BRAIDED
+from gripperd.diagnose.residuals.track import TURNED
+from gripperd.diagnose.search.evidence import evidence
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.stepwise import NEXT, additions
 from gripperd.model.effect import Signal
 
 DECIDED = 5.0
 """By so much another convention must be better. [nat]"""
+WINDINGS = (1e-4, 1.4e-4, 2e-4, 2.8e-4, 4e-4, 5.7e-4, 8e-4)
+"""Ways tried by which a frame must yield for friction to turn half round. [-]"""
 BRAID = WRONG + "muscle.friction_coefficient"
+STAND_INS = (BRAID, "pressure_hysteresis")
+"""What may be found instead of a sign."""
 TELLING = (
     "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
     "threshold_pressure", "force_sensor_bias", "force_sensor_gain",
@@ -44,30 +46,33 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     if not rests(problem):
         return problem
     few = [one for one in listed if one.name in TELLING]
-    best, most = problem, -np.inf
-    known = problem.model.at_rest
-    others = [sign for sign in _of(problem.model) if sign is not known]
-    for sign in (known, *others):
-        tried = replace(problem, model=replace(problem.model, at_rest=sign))
-        start = polished(tried, Point(np.zeros(len(problem.constants)))).point
-        around = design(tried, start, few)
-        evidence = max(
-            [
-                around.fit().evidence,
-                *(around.fit(one).evidence for one in around.members),
-            ]
-        )
-        if evidence > most + DECIDED:
-            best, most = tried, evidence
+    rubs = any(
+        one.turns == "contraction"
+        for one in problem.model.effects
+        if one.name != BRAIDED
+    )
+    best, most = problem, evidence(problem, few)
+    for tried in _others(problem, rubs=rubs):
+        told = evidence(tried, few)
+        if told > most + DECIDED:
+            best, most = tried, told
     return best
 
 
-def _of(model: Explanation) -> list[AtRest]:
-    """Signs that are another for a model: only what rubs besides has one of its own."""
-    rubs = any(
-        one.turns == "contraction" for one in model.effects if one.name != BRAIDED
-    )
-    return [sign for sign in AtRest if rubs or sign is not AtRest.BLADDER]
+def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
+    """Give the problem with every other sign.
+
+    Only what rubs beside the bladder has one that is not that of the bladder, and what
+    a frame that yields holds is not carried.
+    """
+    model = problem.model
+    yields = any(course.yields for course in problem.courses)
+    for sign in TURNED if yields else AtRest:
+        if sign is not model.at_rest and (rubs or sign is not AtRest.BLADDER):
+            yield replace(problem, model=replace(model, at_rest=sign, winding=0.0))
+    for winding in WINDINGS if yields else ():
+        if winding != model.winding:
+            yield replace(problem, model=replace(model, winding=winding))
 
 
 def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
@@ -87,13 +92,10 @@ def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
     if not here.candidates or not rests(problem):
         return problem
     best, most = problem, here.evidence
-    for sign in AtRest:
-        if sign is problem.model.at_rest:
-            continue
-        tried = replace(problem, model=replace(problem.model, at_rest=sign))
+    for tried in _others(problem, rubs=True):
         fits = _beside(replace(found, problem=tried), listed)
-        if (evidence := max(one.evidence for one in fits)) > most + DECIDED:
-            best, most = tried, evidence
+        if (told := max(one.evidence for one in fits)) > most + DECIDED:
+            best, most = tried, told
     return best
 
 
@@ -105,7 +107,7 @@ def _beside(found: Found, listed: Sequence[Candidate]) -> Iterator[Rival]:
     problem, here = found.problem, found.best
     yield replace(here, fit=polished(problem, here.fit.point))
     for one in here.candidates:
-        if one.name == BRAID:
+        if one.name in STAND_INS:
             others = tuple(other for other in here.candidates if other is not one)
             point = removed(problem, here.fit.point, one)
             bare = Rival(others, polished(problem, point))

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
@@ -14,6 +15,7 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
+    REGULATOR,
     STEP,
     altered,
     moments,
@@ -127,6 +129,43 @@ def test_it_turns_from_where_the_rig_came_over_a_way(
     np.testing.assert_allclose(signs[2 * half : top + 1], 1.0)
     np.testing.assert_allclose(signs[top + half], 0.0, atol=1e-9)
     np.testing.assert_allclose(signs[top + 2 * half :], -1.0)
+
+
+def test_what_a_frame_holds_that_yields_turns_over_its_way() -> None:
+    plain = _courses(recording())["b"]
+    # Up by 5 um a metre each sample, to 500, and back.
+    way = 5e-6 * np.append(np.arange(0.0, 100.0), np.arange(100.0, 0.0, -1.0))
+    course = replace(
+        plain,
+        time=0.1 * np.arange(200.0),
+        step=np.full(200, 0.1),
+        measured={"pressure": 1e8 * way},
+        smooth={"contraction": Smooth(0.08 + way, 0.0 * way)},
+        direction=0.0 * way,
+        yields=True,
+    )
+    turning = replace(
+        MODEL, at_rest=AtRest.INFLATING, winding=1e-4, rests={0: 0.0}, stiction=0.1
+    )
+    signs = directions(turning, course, 0)
+    np.testing.assert_allclose(signs[[0, 10]], [0.0, 0.55])
+    np.testing.assert_allclose(signs[20:101], 1.1)
+    np.testing.assert_allclose(signs[[120, 130]], [0.0, -0.55], atol=1e-9)
+    np.testing.assert_allclose(signs[140:], -1.1)
+    still = replace(course, yields=False)
+    assert directions(turning, still, 0)[120] == pytest.approx(-1.1)
+
+
+def test_a_regulator_that_vents_comes_to_its_line_by_and_by() -> None:
+    plain = _courses(recording())["b"]
+    off = replace(MODEL, regulator=replace(REGULATOR, pressure_low=4e3))
+    line = track_of(off, plain, 0).command
+    vented = track_of(replace(off, vents=0.0), plain, 0).command
+    asked = 500e3 * (plain.column("current") - 4e-3) / 16e-3
+    assert (asked.min(), vented.min()) == (0.0, 0.0)
+    high = asked > 100e3
+    np.testing.assert_allclose(vented[high], line[high])
+    assert np.all(np.diff(vented[:50]) > 0)
 
 
 def test_where_there_was_travel_its_direction_counts() -> None:

@@ -25,6 +25,7 @@ from tests.diagnose.small import (
     Hidden,
     Moment,
     altered,
+    moments,
     nothing,
     recording,
     rubbing,
@@ -96,6 +97,47 @@ def test_the_convention_that_the_data_support_is_taken(
 ) -> None:
     _, decided = _decided(recording(hidden))
     assert decided.model.at_rest is sign
+
+
+def _framed(radius: float) -> Recording:
+    """Held by a frame that gives 0.25 % at the top; strands stick over so much."""
+    told = recording(nothing)
+    for name, moment in moments().items():
+        if name not in ("a", "b", "c", "b2"):
+            continue
+        ideal = textbook(replace(moment, direction=0.0 * moment.time))
+        way = 0.0025 * np.maximum(ideal, 0.0) / 1.3e3
+        held = moment.contraction + way
+        sign = _stuck(way, radius)
+        pull = textbook(replace(moment, contraction=held, direction=sign))
+        told = altered(told, [name], "contraction", partial(_more, way))
+        told = altered(told, [name], "force", partial(_more, pull - textbook(moment)))
+    return told
+
+
+def _more(more: Array, column: Array) -> Array:
+    return column + more
+
+
+def _stuck(way: Array, radius: float) -> Array:
+    """Sign of friction of strands that bend before they slide, from rest."""
+    sign, signs = 0.0, []
+    for step in np.diff(way, prepend=way[0]).tolist():
+        sign = min(max(sign + step / radius, -1.0), 1.0)
+        signs.append(sign)
+    return np.array(signs)
+
+
+@pytest.mark.parametrize("radius", [3e-4, 6e-4])
+def test_how_far_a_frame_must_yield_for_friction_to_turn_is_told(radius: float) -> None:
+    problem, decided = _decided(_framed(radius))
+    assert problem.model.at_rest is AtRest.INFLATING
+    assert decided.model.winding == pytest.approx(radius, rel=0.35)
+
+
+def test_without_a_frame_that_yields_nothing_winds_up() -> None:
+    _, decided = _decided(recording(_yielding))
+    assert decided.model.winding == 0.0
 
 
 def _late() -> Problem:
