@@ -50,10 +50,27 @@ def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]
     rest = [way - compliance * pull for way, pull in zip(ways, pulls, strict=True)]
     if np.nanvar(np.concatenate(rest)) > LOUD * noise.std**2:
         return list(courses)
-    found = list(courses)
+    found = [_filled(course, compliance) for course in courses]
     for index, pull in zip(held, pulls, strict=True):
         found[index] = _yielding(courses[index], compliance * pull, compliance)
     return found
+
+
+def _filled(course: Course, compliance: float) -> Course:
+    """Let a muscle go with its force while it is filled, before it travels."""
+    force, smooth = course.smooth.get("force"), dict(course.smooth)
+    if force is None:
+        return course
+    for name in {"contraction", "length"} & smooth.keys():
+        known = smooth[name]
+        # Where nothing was seen to travel its level is one mean.
+        before = np.logical_and.accumulate(known.value == known.value[0])
+        way = np.zeros(len(course))
+        way[before] = compliance * _about_mean(force.value[before])
+        rate = np.where(before, compliance * force.rate, known.rate)
+        if np.isfinite(way).all():
+            smooth[name] = known._replace(value=known.value + way, rate=rate)
+    return replace(course, smooth=smooth)
 
 
 def _is_held(course: Course) -> bool:

@@ -7,7 +7,7 @@ import pytest
 
 from gripperd.diagnose.readings.cutting import courses
 from tests.diagnose.held import COMPLIANCE, SIZE, STEP, held, lengths, up_and_down
-from tests.diagnose.sweep import noise
+from tests.diagnose.sweep import noise, run
 
 
 def test_the_length_goes_with_the_force_of_a_frame_that_yields() -> None:
@@ -49,3 +49,25 @@ def test_a_clearance_that_is_read_well_is_not_made_a_spring() -> None:
         told.append(replace(one, columns={**one.columns, "contraction": read}))
     found = courses(replace(rigid, runs=tuple(told)), 0.25)[0]
     assert not any(course.yields for course in found)
+
+
+def test_a_muscle_that_is_filled_before_it_travels_goes_with_its_force() -> None:
+    """Up to 150 N in 6 s at one length, and then by 10 % of contraction."""
+    place = np.arange(SIZE, dtype=float)
+    force = np.interp(place, [0, SIZE // 2, SIZE], [0.0, 150.0, 75.0])
+    moved = 0.1 * np.clip(2.0 * place / SIZE - 1.0, 0.0, 1.0)
+    length = moved + COMPLIANCE * force
+    filled = run(
+        "filled",
+        time=400.0 + STEP * place,
+        pressure=np.minimum(5e2 * place, 6e4) + noise(SIZE, 1e3, 50),
+        contraction=length + noise(SIZE, 8e-4, 51),
+        force=force + noise(SIZE, 3.0, 52),
+    )
+    told = held(COMPLIANCE)
+    course = courses(replace(told, runs=(*told.runs, filled)), 0.25)[0][-1]
+    assert not course.yields
+    gone, rate = course.level("contraction"), course.rate("contraction")
+    assert gone[110] - gone[10] == pytest.approx(COMPLIANCE * 125.0, rel=0.1)
+    assert np.median(rate[10:110]) == pytest.approx(COMPLIANCE * 25.0, rel=0.1)
+    np.testing.assert_allclose(gone[:110], length[:110], atol=1e-4)
