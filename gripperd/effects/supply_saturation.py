@@ -39,8 +39,9 @@ class SupplySaturation(InValve):
 
     share: float = amplitude(unit=None, scale=0.5, low=0.0, high=1.0)
     """Part of what is asked above the ceiling that does not come; 1 clips. [-]"""
-    sag: float = amplitude(unit=None, scale=0.1, low=-1.0, high=1.0)
-    """Pressure lost at the top of the line per loss of supply. [Pa/Pa]"""
+    sag: float = amplitude(unit=None, scale=0.1, low=0.0, high=1.0)
+    """Pressure lost at the top of the line per loss of supply; what is won then is of
+    another kind, of a poppet that the supply helps to close. [Pa/Pa]"""
     limit: float = shape(unit=None, starts=(0.9, 0.8, 0.7, 0.95), low=0.05, high=1.0)
     """Place of the ceiling on the line. [-]"""
     softness: float = shape(unit=None, starts=(0.0, 0.03), low=0.0, high=0.2)

@@ -1,6 +1,7 @@
 """What fits an effect only where nothing is that bears its name."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,16 @@ from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
-from tests.diagnose.small import MODEL, STEP, Moment, recording, switched
+from tests.diagnose.small import (
+    MODEL,
+    STEP,
+    Moment,
+    moments,
+    nothing,
+    recording,
+    switched,
+    textbook,
+)
 
 
 @pytest.mark.parametrize(
@@ -97,6 +107,36 @@ def test_stretch_that_creeps_beside_the_pull_is_no_memory_of_strands() -> None:
     told = diagnose(recording(creeping), MODEL, {}, library)
     assert [entry.name for entry in told.named] == ["creep"]
     assert told.verdict is Verdict.NAMED
+
+
+@pytest.mark.parametrize(
+    ("share", "is_named"),
+    [pytest.param(0.2, True, id="sags"), pytest.param(-0.2, False, id="rises")],
+)
+def test_a_regulator_that_gives_more_as_its_supply_sinks_does_not_sag(
+    share: float, *, is_named: bool
+) -> None:
+    """A poppet that its supply helps to close: the supply swings by 70 kPa."""
+    told = recording(nothing)
+    runs = []
+    for run in told.runs:
+        moment = moments()[run.name]
+        lost = 70e3 * (1 - np.cos(moment.time / 7.0))
+        more = -share * lost * moment.pressure / 500e3
+        fed = replace(moment, pressure=moment.pressure + more)
+        columns = {
+            **run.columns,
+            "supply": 700e3 - lost,
+            "pressure": run.columns["pressure"] + more,
+            "force": run.columns["force"] + textbook(fed) - textbook(moment),
+        }
+        runs.append(replace(run, columns=columns))
+    swung = replace(told, runs=tuple(runs))
+    valves = ("supply_saturation", "valve_nonlinearity", "valve_gain", "valve_offset")
+    found = diagnose(swung, MODEL, {}, {one: EFFECTS[one] for one in valves})
+    names = [entry.name for entry in found.named]
+    assert (names == ["supply_saturation"]) == is_named
+    assert (found.verdict is Verdict.UNEXPLAINED) != is_named
 
 
 def _late(load: Array, time: float) -> Array:
