@@ -28,6 +28,9 @@ TITLES = {
     Verdict.UNUSABLE: "Unusable",
 }
 
+CLOSE = 5.0
+"""Evidence behind that goes without saying: by it alone a rival could be true. [nat]"""
+
 
 def page(diagnosis: Diagnosis, *, model: str, program: str) -> str:
     """Write a diagnosis as HTML, with every picture and style inside.
@@ -118,6 +121,8 @@ def _told(diagnosis: Diagnosis) -> dict[str, object]:
             for entry in diagnosis.named
             if entry.equivalents
         ],
+        "within": f"{diagnosis.contest.margin:.0f}",
+        "misshaped": diagnosis.contest.margin > CLOSE,
         "next": proposal,
         "plan": _yaml(proposal.plan) if proposal and proposal.plan else "",
         "signature": diagnosis.signature,

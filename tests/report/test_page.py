@@ -231,6 +231,17 @@ def test_what_adds_nothing_is_no_explanation_of_its_own(creep: Diagnosis) -> Non
         assert (f"{name}</th>" in text) is is_told
 
 
+@pytest.mark.parametrize(("margin", "is_told"), [(2.0, False), (82.0, True)])
+def test_it_says_within_how_much_nothing_is_told_apart(
+    creep: Diagnosis, margin: float, *, is_told: bool
+) -> None:
+    entry = replace(creep.named[0], equivalents=("fatigue",))
+    contest = replace(creep.contest, margin=margin)
+    text = written(replace(creep, named=(entry,), contest=contest))
+    assert "cannot tell <code>creep</code> from <code>fatigue</code>" in text
+    assert ("up to 82&nbsp;nat behind" in text) is is_told
+
+
 def test_it_says_why_more_evidence_may_be_passed_over(
     creep: Diagnosis, text: str
 ) -> None:

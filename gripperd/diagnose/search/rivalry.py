@@ -56,6 +56,11 @@ class Contest:
     best: Rival
     places: tuple[Place, ...] = ()
     """One for each candidate of the best, in the same order."""
+    margin: float = 0.0
+    """Evidence by which a rival may be behind and fit as well; 0 where not asked. [nat]
+
+    That is some 2, and more where more than noise is left.
+    """
 
     @property
     def equivalents(self) -> tuple[tuple[str, ...], ...]:
@@ -144,7 +149,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
             and _stands_in(found, best, index, place.without, rival)
         )
         places.append(replace(place, rivals=tuple(alike)))
-    return Contest(best, tuple(places))
+    return Contest(best, tuple(places), margin)
 
 
 def _within_limits(
