@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.fit.candidates import KEPT
 from gripperd.diagnose.statement import reasons
 
-OF_MODEL = " is not in the model"
-"""End of the one reason that no other recording would change."""
+ABSENT = " is not in the model"
+"""End of a reason that no other recording would change."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +17,7 @@ class Untested:
     recording: tuple[str, ...]
     """What this recording cannot show."""
     model: tuple[str, ...]
-    """What acts on an effect that this model does not have."""
+    """What this model has already, or what acts on an effect that it has not."""
 
 
 def untested(diagnosis: Diagnosis) -> Untested:
@@ -24,6 +25,6 @@ def untested(diagnosis: Diagnosis) -> Untested:
     of_recording: list[str] = []
     of_model: list[str] = []
     for reason, names in reasons(diagnosis).items():
-        lines = of_model if reason.endswith(OF_MODEL) else of_recording
+        lines = of_model if reason.endswith((ABSENT, KEPT)) else of_recording
         lines.append(f"{', '.join(names)}: {reason}")
     return Untested(tuple(of_recording), tuple(of_model))

@@ -4,6 +4,7 @@ import pytest
 
 from gripperd.demo.rig import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
+from gripperd.diagnose.fit.candidates import KEPT
 from gripperd.report import page
 from gripperd.report.untested import untested
 from tests.demonstration import example
@@ -33,9 +34,15 @@ def test_no_other_recording_would_help_a_model_that_lacks_the_effect(
     assert all(line.endswith("is not in the model") for line in told.model)
 
 
+def test_what_the_model_has_is_kept_in_its_form(creep: Diagnosis) -> None:
+    told = untested(replace(creep, untested={"creep": KEPT, "leak": "too short"}))
+    assert told.model == (f"creep: {KEPT}",)
+    assert told.recording == ("leak: too short",)
+
+
 def test_the_page_keeps_the_model_apart_from_the_recording(creep: Diagnosis) -> None:
     text = page(creep, model="as-drawn", program="0.1.0")
-    before, after = text.split("What this model leaves out")
+    before, after = text.split("What was not tested for the sake of this model")
     assert f"<li>{MODEL_LINE}</li>" in after
     assert "not measured</li>" in before
     assert "What this recording cannot show" in before
@@ -43,5 +50,5 @@ def test_the_page_keeps_the_model_apart_from_the_recording(creep: Diagnosis) -> 
 
 def test_a_page_without_either_has_no_empty_heading(creep: Diagnosis) -> None:
     text = page(replace(creep, untested={}), model="as-drawn", program="0.1.0")
-    assert "What this model leaves out" not in text
+    assert "What was not tested for the sake of this model" not in text
     assert "What this recording cannot show" not in text

@@ -25,6 +25,8 @@ NAMES: Mapping[str, str] = MappingProxyType({"contraction": "length"})
 TURNED = 0.05
 """Way back, as a share of the range, from which a pressure or a current has turned:
 eight times the noise of common sensors, 0.2 to 0.6 %, and more. [-]"""
+KEPT = "in the model already: its sizes were fitted again, its form is as it was"
+"""Why an effect is no candidate whose form may be wrong all the same."""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -73,11 +75,14 @@ def candidates(
     """
     found: list[Candidate] = []
     unseen: dict[str, str] = {}
-    present = {effect.name for effect in problem.model.effects}
+    known = {effect.name: effect for effect in problem.model.effects}
+    present = frozenset(known)
     travels = any(course.direction.any() for course in problem.courses)
     has_time = not is_table(problem.courses)
     for name, kind in library.items():
         if name in present:
+            if _is_bent(known[name]):
+                unseen[name] = KEPT
             continue
         if reason := _unseen(problem, kind, columns):
             unseen[name] = reason
@@ -91,6 +96,14 @@ def candidates(
         ]
     found += _wrong_constants(library, problem)
     return tuple(found), unseen
+
+
+def _is_bent(effect: Effect) -> bool:
+    """Whether an effect of a model has a form of its own, beside its sizes."""
+    return any(
+        one.bends_from(getattr(effect, name)) and getattr(effect, name) != one.starts[0]
+        for name, one in in_use(effect, effect.idle).items()
+    )
 
 
 def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> str:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import (
+    KEPT,
     Candidate,
     amplitudes,
     candidates,
@@ -23,7 +24,7 @@ from gripperd.effects.creep import Creep
 from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset, Zero
-from gripperd.model.effect import Signal, Stage
+from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import in_use, parameters
 from tests.diagnose.small import MODEL, nothing, recording, tabled, without
 
@@ -43,6 +44,22 @@ def test_everything_is_either_a_candidate_or_unseen_or_in_the_model(
     assert effects | set(unseen) | present == set(EFFECTS)
     assert not effects & set(unseen)
     assert not present & (effects | set(unseen))
+
+
+@pytest.mark.parametrize(
+    ("effect", "is_told"),
+    [
+        pytest.param(Creep(fast=-0.02, time=40.0), True, id="a form of its own"),
+        pytest.param(ThresholdPressure(pressure=20e3), False, id="as it begins"),
+    ],
+)
+def test_a_form_that_the_model_has_is_told_to_be_kept(
+    blank: Problem, effect: Effect, *, is_told: bool
+) -> None:
+    model = blank.model.with_effect(effect)
+    listed, unseen = candidates(EFFECTS, replace(blank, model=model), MEASURED)
+    assert effect.name not in _names(listed)
+    assert (unseen.get(effect.name) == KEPT) is is_told
 
 
 def test_what_needs_a_column_that_is_missing_says_which(blank: Problem) -> None:
