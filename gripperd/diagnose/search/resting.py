@@ -54,9 +54,14 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     best, most = problem, evidence(problem, few)
     for tried in _others(problem, rubs=rubs):
         told = evidence(tried, few)
-        if told > most + DECIDED:
+        if told > most + _lead(best, tried):
             best, most = tried, told
     return best
+
+
+def _lead(best: Problem, tried: Problem) -> float:
+    """By how much another sign must be better; by none if but its way is another."""
+    return 0.0 if best.model.winding and tried.model.winding else DECIDED
 
 
 def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
@@ -94,7 +99,8 @@ def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
     best, most = problem, here.evidence
     for tried in _others(problem, rubs=True):
         fits = _beside(replace(found, problem=tried), listed)
-        if (told := max(one.evidence for one in fits)) > most + DECIDED:
+        told = max(one.evidence for one in fits)
+        if told > most + _lead(best, tried):
             best, most = tried, told
     return best
 
