@@ -131,7 +131,8 @@ def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, No
     fast = own.std**2 + (force.std / linkage.ratio) ** 2
     mean = own.slow_variance + force.slow_variance / linkage.ratio**2
     both = Noise(fast**0.5, (mean - fast) / (mean + fast))
-    if grip.slow_variance < QUIETER * both.slow_variance:
+    apart = [one.std**2 * (1 - one.correlation) for one in (grip, own, force)]
+    if apart[0] < QUIETER * (apart[1] + apart[2] / linkage.ratio**2):
         both = grip
     turned = REVERSIBLE * problem.full_scale[Signal.GRIP]
     slow = np.square([grip.drift, force.drift / linkage.ratio, turned])

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.diagnose.noise.model import Noise
+from gripperd.diagnose.noise.model import Noise, quick_noise
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.loudness import _handed_on
@@ -163,6 +163,19 @@ def test_the_force_hands_its_noise_and_drift_on_to_the_grip(gripping: Problem) -
     slow = handed.drift**2 * handed.memory
     assert slow == pytest.approx(60 * 36 / 16 + 20 * 0.25 + 3 * turned)
     assert _handed_on(told, gripping)[Signal.FORCE] == told[Signal.FORCE]
+
+
+def test_a_force_that_wanders_under_its_noise_hands_that_on_as_well(
+    gripping: Problem,
+) -> None:
+    """Neighbours in the residual of the grip know nothing of it."""
+    force = Noise(8.0, 0.54, white=0.4)
+    neighbours = quick_noise([noise(400, 1.5, 3)])
+    assert neighbours.slow_variance < 0.1 * force.slow_variance / 16
+    told = {Signal.FORCE: force, Signal.GRIP: neighbours}
+    handed = _handed_on(told, gripping)[Signal.GRIP]
+    own = force.slow_variance / 16 + GRIP_NOISE**2
+    assert handed.slow_variance == pytest.approx(own, rel=0.2)
 
 
 def test_without_a_linkage_nothing_is_handed_on(gripping: Problem) -> None:
