@@ -7,14 +7,13 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.dead_band import with_dead_band
 from gripperd.diagnose.search.resting import with_resting_sign
 from gripperd.diagnose.search.shut import with_valve_shut
-from gripperd.diagnose.search.vented import with_vented_zero
 
 
 def as_read(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     """Give the problem as the data support it, by evidence.
 
-    Which way friction acts at rest, whether the regulator vents when it is asked for
-    nothing and sleeps within a band, and which holds its valve was shut in.
+    Which way friction acts at rest, whether the regulator sleeps within a band, and
+    which holds its valve was shut in.
 
     Parameters
     ----------
@@ -23,8 +22,6 @@ def as_read(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     listed
         What could be missing.
     """
-    for reading in (
-        with_resting_sign, with_vented_zero, with_dead_band, with_valve_shut,
-    ):  # fmt: skip
+    for reading in (with_resting_sign, with_dead_band, with_valve_shut):
         problem = reading(problem, listed)
     return problem

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -18,6 +19,7 @@ from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.search.stiction import with_stiction
 from gripperd.diagnose.search.tolerances import with_usual_tolerances
 from gripperd.diagnose.search.transient import with_transients
+from gripperd.diagnose.search.vented import with_vented_zero
 
 Progress: TypeAlias = Callable[[str, float], None]
 """Told what is being done, and the share that is done. [0..1]"""
@@ -59,10 +61,10 @@ def selected(
     train = as_read(parts.train, listed)
     progress("candidates, singles and pairs", 0.3)
     found = search(train, listed, rng)
-    beside = with_sign_beside(found, listed)
-    if beside is not found.problem:
-        train = replace(train, model=beside.model)
-        found = search(train, listed, rng)
+    for again in (partial(with_sign_beside, listed=listed), with_vented_zero):
+        if (other := again(found)) is not found.problem:
+            train = replace(train, model=other.model)
+            found = search(train, listed, rng)
     test = replace(
         parts.test, model=train.model, courses=train.courses, band=train.band
     )

@@ -1,44 +1,43 @@
 """A regulator that vents when it is asked for nothing, whatever its line."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.polish import polished
+from gripperd.diagnose.fit.rival import Rival, removed
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.evidence import evidence
+from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.resting import DECIDED
-from gripperd.model.effect import Signal
 
-TELLING = (
-    "valve_gain", "valve_nonlinearity", "pressure_sensor_bias", "pressure_sensor_gain",
-)  # fmt: skip
-"""What may stand beside it. An offset may stand for it, if it is within tolerance."""
-NOTHING = 0.01
-"""Share of the span below which nothing is asked for. [-]"""
+OFFSET, SIZE, ZERO, SUPPRESSED = "valve_offset", "offset", "zero", "suppressed"
+"""Effect that a line is named by which is off, and what it says of it."""
+LINE = "valve.pressure_low"
+"""Constant that is off as much."""
 
 
-def with_vented_zero(problem: Problem, listed: Sequence[Candidate]) -> Problem:
-    """Give the problem with the zero of its regulator suppressed, if that says more.
+def with_vented_zero(found: Found) -> Problem:
+    """Give the problem with a regulator that vents below its line, if it does.
 
-    How far its line is off within its tolerance does not show there, then.
+    How far a line is off within its tolerance is no effect. A constant that is off
+    shows at zero as well, where such a regulator vents, and so the effect is found in
+    its place.
 
     Parameters
     ----------
-    problem
-        Before the search.
-    listed
-        What could be missing; of it what :data:`TELLING` names is tried beside each.
+    found
+        The search, with the problem as it was searched.
     """
-    regulator = problem.model.regulator
-    if regulator is None or Signal.PRESSURE not in problem.signals:
+    problem, here = found.problem, found.best
+    effects = {one.name: one for one in here.fit.point.effects}
+    line = next((one for one in problem.constants if one.path == LINE), None)
+    regulator, offset = problem.model.regulator, effects.get(OFFSET)
+    if line is None or regulator is None or offset is None:
         return problem
-    low, high = regulator.pressure_low, regulator.pressure_high
-    asked = [regulator.pressure(one.column("current")) for one in problem.courses]
-    if not any(np.any(each < low + NOTHING * (high - low)) for each in asked):
+    within = abs(getattr(offset, SIZE)) < line.reach * line.sigma
+    if getattr(offset, ZERO) != SUPPRESSED or not within:
         return problem
-    few = [one for one in listed if one.name in TELLING]
-    vents = replace(problem, model=replace(problem.model, vents=low))
-    gained = evidence(vents, few) - evidence(problem, few)
-    return vents if gained > DECIDED else problem
+    own = next(one for one in here.candidates if one.name == OFFSET)
+    others = tuple(one for one in here.candidates if one is not own)
+    vents = replace(problem.model, vents=regulator.pressure_low)
+    tried = replace(problem, model=vents)
+    told = Rival(others, polished(tried, removed(problem, here.fit.point, own)))
+    return tried if told.evidence > here.evidence - DECIDED else problem

@@ -7,11 +7,15 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import diagnose
+from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.search.vented import with_vented_zero
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
+from gripperd.effects.valve_gain import ValveGain
+from gripperd.effects.valve_offset import ValveOffset, Zero
+from tests.diagnose.fitted import ended, fitted
 from tests.diagnose.small import (
     MODEL,
     altered,
@@ -19,7 +23,6 @@ from tests.diagnose.small import (
     nothing,
     recording,
     textbook,
-    without,
 )
 
 TOLERANCES = {"valve.pressure_low": 2.5e3, "valve.pressure_high": 2.5e3}
@@ -41,11 +44,23 @@ def _off(kilopascals: float, *, vents: bool) -> Recording:
     return told
 
 
-@pytest.mark.parametrize(("kilopascals", "vents"), [(4.0, True), (4.0, False)])
-def test_whether_a_regulator_vents_is_told(*, kilopascals: float, vents: bool) -> None:
+@pytest.mark.parametrize(
+    ("kilopascals", "vents", "zero", "is_read_so"),
+    [
+        pytest.param(4.0, True, Zero.SUPPRESSED, True, id="within its tolerance"),
+        pytest.param(18.0, True, Zero.SUPPRESSED, False, id="off by far"),
+        pytest.param(4.0, False, Zero.REGULATED, False, id="keeps its line"),
+    ],
+)
+def test_an_offset_within_tolerance_is_a_line_of_a_regulator_that_vents(
+    kilopascals: float, zero: Zero, *, vents: bool, is_read_so: bool
+) -> None:
     problem = problem_of(_off(kilopascals, vents=vents), MODEL, TOLERANCES)
-    told = with_vented_zero(problem, []).model.vents
-    assert told == (0.0 if vents else None)
+    offset = ValveOffset(offset=1e3 * kilopascals, zero=zero)
+    rival = fitted(problem, Candidate("valve_offset", offset))
+    told = with_vented_zero(ended(problem, rival))
+    assert told.model.vents == (0.0 if is_read_so else None)
+    assert (told is problem) is not is_read_so
 
 
 def test_a_line_that_is_off_within_its_tolerance_is_no_effect() -> None:
@@ -58,14 +73,7 @@ def test_one_that_is_off_by_far_is_named_all_the_same() -> None:
     assert [entry.name for entry in found.named] == ["valve_offset"]
 
 
-def test_without_a_command_there_is_nothing_to_decide() -> None:
-    problem = problem_of(without(_off(4.0, vents=True), "current"), MODEL, TOLERANCES)
-    assert with_vented_zero(problem, []) is problem
-
-
-def test_one_that_is_always_asked_for_something_is_not_seen_to_vent() -> None:
-    told = _off(4.0, vents=True)
-    for name in moments():
-        told = altered(told, [name], "current", partial(np.maximum, 4.4e-3))
-    problem = problem_of(told, MODEL, TOLERANCES)
-    assert with_vented_zero(problem, []) is problem
+def test_where_no_offset_was_found_nothing_is_decided() -> None:
+    problem = problem_of(_off(4.0, vents=True), MODEL, TOLERANCES)
+    gain = fitted(problem, Candidate("valve_gain", ValveGain(error=0.01)))
+    assert with_vented_zero(ended(problem, gain)) is problem
