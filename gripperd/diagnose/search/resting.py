@@ -7,14 +7,17 @@ way. A wrong sign would look like an effect.
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from gripperd.diagnose.fit.candidates import WRONG, Candidate
+from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, removed
 from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.stages import BRAIDED
 from gripperd.diagnose.residuals.track import TURNED
-from gripperd.diagnose.search.evidence import evidence
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.stepwise import NEXT, additions
 from gripperd.model.effect import Signal
@@ -51,12 +54,20 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         for one in problem.model.effects
         if one.name != BRAIDED
     )
-    best, most = problem, evidence(problem, few)
+    best, most = problem, _evidence(problem, few)
     for tried in _others(problem, rubs=rubs):
-        told = evidence(tried, few)
+        told = _evidence(tried, few)
         if told > most + _lead(best, tried):
             best, most = tried, told
     return best
+
+
+def _evidence(problem: Problem, few: Sequence[Candidate]) -> float:
+    """Of the best constants, with nothing added or one of a few."""
+    start = polished(problem, Point(np.zeros(len(problem.constants)))).point
+    around = design(problem, start, few)
+    members = [around.fit(one) for one in around.members]
+    return max(fit.evidence for fit in (around.fit(), *members))
 
 
 def _lead(best: Problem, tried: Problem) -> float:
