@@ -290,5 +290,5 @@ def _without_verdict(
 def _next(problem: Problem, best: Contest) -> Proposal | None:
     for place in best.places:
         if place.rivals:
-            return proposal(problem, best.best, place.rivals[0])
+            return proposal(problem, best.best, place.rivals[0], best.margin)
     return None

@@ -60,7 +60,9 @@ class Proposal:
     """Corner points by the columns of a recording, in their units."""
 
 
-def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
+def proposal(
+    problem: Problem, one: Rival, other: Rival, margin: float = 0.0
+) -> Proposal:
     """Choose the sweep that maximises expected separation per second [1]_.
 
     Parameters
@@ -69,7 +71,11 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
         What was measured so far.
     one, other
         Two explanations of it.
+    margin
+        Evidence by which one may be behind and fit as well, so far. A sweep that rises
+        by less leaves them where they are. [nat]
     """
+    worth = max(WORTH, 2 * margin)
     names = f"{_title(one, other)} from {_title(other, one)}"
     top, far = _reach(problem, one)
     planned = [
@@ -81,7 +87,7 @@ def proposal(problem: Problem, one: Rival, other: Rival) -> Proposal:
         rates = [
             (rise(rises) / float(sweep.time[-1]), sweep)
             for sweep, rises in planned
-            if rise(rises) > WORTH
+            if rise(rises) > worth
         ]
         if rates:
             _, sweep = max(rates, key=lambda known: known[0])

@@ -215,6 +215,18 @@ def test_a_sweep_that_tells_one_way_round_alone_may_separate() -> None:
     assert found.why == "may separate coulomb friction from presliding hysteresis"
 
 
+def test_a_sweep_that_leaves_them_as_near_as_they_are_is_not_planned() -> None:
+    """Where much is left that neither is, it would be planned again and again."""
+    problem = _problem(rubbing(20.0))
+    rivals = (
+        _rival(problem, CoulombFriction(magnitude=10.0)),
+        _rival(problem, PreslidingHysteresis(near=10.0)),
+    )
+    near, far = (proposal(problem, *rivals, margin) for margin in (5.0, 5e3))
+    assert near.kind is not None
+    assert far.kind is None
+
+
 def test_a_cell_that_would_read_more_than_a_slack_muscle_may_tell() -> None:
     """Up to 60 kPa a threshold leaves it slack, which the rival would not."""
     problem = replace(_problem(threshold(40.0)), slack=60.0)
