@@ -7,7 +7,9 @@ from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.row import alike
+from gripperd.diagnose.readings.travel import TRAVEL
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.model.compiled import compiled
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -17,6 +19,10 @@ HELD = 0.03
 """Within this share of the highest pressure it is held. [-]"""
 LONG_ENOUGH = 10.0
 """A shorter hold says nothing about drift. [s]"""
+ARRIVED = 2.0
+"""Time in which what has come to rest still settles. [s]"""
+LEAST = 20
+"""Samples of a hold that say something."""
 ENOUGH = 30
 """Samples of a sweep of which a few regressors take little."""
 APART = 0.01
@@ -33,13 +39,12 @@ def vented(problem: Problem, signal: Signal) -> list[Quiet]:
     found: list[Quiet] = []
     for index, course in enumerate(problem.courses):
         reading = course.column(signal.value)
-        good = np.isfinite(reading)
+        good = np.isfinite(reading) & _held(course, top)
         if problem.kept:
             good &= problem.kept[index]
-        if good.sum() < 20 or not _holds(course, top):
+        if good.sum() < LEAST or np.ptp(course.time[good]) < LONG_ENOUGH:
             continue
-        empty = float(np.nanmean(course.level("pressure"))) < VENTED * top
-        if empty and np.ptp(course.time[good]) >= LONG_ENOUGH:
+        if float(np.mean(course.level("pressure")[good])) < VENTED * top:
             found.append(hold(course.time[good], reading[good], creeps=False))
     return found
 
@@ -59,21 +64,45 @@ def driven(problem: Problem, residuals: list[Array], indices: list[int]) -> list
     top = problem.highest.get(Signal.PRESSURE, 0.0)
     found: list[Quiet] = []
     for i in indices:
-        course = problem.courses[problem.blocks[i].course]
-        time = problem.times[i]
-        if not _holds(course, top) or np.ptp(time) < LONG_ENOUGH:
+        block = problem.blocks[i]
+        course = problem.courses[block.course]
+        held = _held(course, top)[block.good]
+        time = problem.times[i][held]
+        if time.size < LEAST or np.ptp(time) < LONG_ENOUGH:
             continue
-        if float(np.nanmean(course.level("pressure"))) >= VENTED * top:
-            found.append(hold(time, residuals[i], creeps=True))
+        pressure = course.level("pressure")[block.good][held]
+        if float(np.mean(pressure)) >= VENTED * top:
+            found.append(hold(time, residuals[i][held], creeps=True))
     return found
 
 
-def _holds(course: Course, top: float) -> bool:
-    pressure = course.level("pressure")
+def _held(course: Course, top: float) -> Mask:
+    """Samples of the longest stretch at one pressure and length, once it has come."""
+    held = np.zeros(len(course), dtype=bool)
+    pressure, way = course.level("pressure"), course.level("contraction")
     if not (np.isfinite(pressure).all() and top > 0):
-        return False
-    still = not course.direction.any()
-    return bool(still and np.ptp(pressure) < HELD * top)
+        return held
+    known = np.isfinite(way).all()
+    columns = np.vstack([pressure / (HELD * top), way / TRAVEL if known else 0 * way])
+    start, stop = compiled(_longest)(columns if known else columns[:1])
+    held[start:stop] = True
+    if start > 0:
+        held &= course.time >= course.time[start] + ARRIVED
+    return held
+
+
+def _longest(columns: Array) -> tuple[int, int]:
+    """Longest of the stretches in which every column stays within 1, one by one."""
+    best, until, start = 0, 0, 0
+    low, high = columns[:, 0].copy(), columns[:, 0].copy()
+    for i in range(columns.shape[1]):
+        low, high = np.minimum(low, columns[:, i]), np.maximum(high, columns[:, i])
+        if np.any(high - low > 1.0):
+            start = i
+            low, high = columns[:, i].copy(), columns[:, i].copy()
+        if i + 1 - start > until - best:
+            best, until = start, i + 1
+    return best, until
 
 
 def repeated(
