@@ -64,18 +64,20 @@ def test_a_diagnosis_is_the_one_that_the_command_line_makes(
     found = drawn.http.get(creep).json()
     model, diagnosis = example(Hidden.CREEP)
     here = document(diagnosis, model=model.name, program=__version__)
-    assert told(found["result"]) == told(json.loads(json.dumps(here)))
+    result = json.loads(json.dumps(here))
+    # So small a chance has the sums of its processor in its last digits.
+    chances = [_chances(one) for one in (found["result"], result)]
+    assert chances[0] == pytest.approx(chances[1], rel=0.01)
+    assert found["result"] == result
     assert (found["verdict"], found["recording"]) == ("named", whole)
     assert (found["model"], found["seed"]) == ("as-drawn", SEED)
     assert found["created_at"] <= found["started_at"] <= found["completed_at"]
     assert (found["error"], found["objection"]) == (None, None)
 
 
-def told(result: dict[str, Any]) -> dict[str, Any]:
-    """A result without its chance, which is told as the least that ever is."""
-    for effect in result["effects"]:
-        assert effect["evidence"].pop("p_value") == 1e-99
-    return result
+def _chances(result: dict[str, Any]) -> list[float]:
+    """Take the chances of a result out of it."""
+    return [effect["evidence"].pop("p_value") for effect in result["effects"]]
 
 
 def test_diagnoses_are_listed_without_their_results(drawn: Daemon, creep: str) -> None:
