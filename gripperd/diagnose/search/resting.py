@@ -117,9 +117,10 @@ def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
 
 
 def _beside(found: Found, listed: Sequence[Candidate]) -> Iterator[Rival]:
-    """Give the best as it is; where its braid rubs otherwise, with others instead.
+    """Give the best as it is, and without what may be found instead of a sign.
 
-    A braid that hardly rubs any more takes no notice of its sign, and hides it.
+    A braid that hardly rubs any more takes no notice of its sign, and hides it: then
+    with others instead as well.
     """
     problem, here = found.problem, found.best
     yield replace(here, fit=polished(problem, here.fit.point))
@@ -128,7 +129,9 @@ def _beside(found: Found, listed: Sequence[Candidate]) -> Iterator[Rival]:
             others = tuple(other for other in here.candidates if other is not one)
             point = removed(problem, here.fit.point, one)
             bare = Rival(others, polished(problem, point))
-            yield from (bare, *additions(found, bare, listed, NEXT))
+            yield bare
+            if one.name == BRAID:
+                yield from additions(found, bare, listed, NEXT)
 
 
 def rests(problem: Problem) -> bool:
