@@ -55,16 +55,15 @@ def zero_of_slack(problem: Problem, taut: float, *, pushes: bool) -> float | Non
     slack = expected < -PUSHES * taut
     if slack.sum() < FEWEST:
         return None
-    expected, measured = expected[slack], measured[slack]
     clock = time[slack] - time[slack].mean()
     line = np.column_stack([np.ones_like(clock), clock])
-    known = line @ np.linalg.lstsq(line, measured, rcond=None)[0]
-    zero = float(np.max(known))
+    read = np.column_stack([measured[slack], (measured - expected)[slack]])
+    drift = line @ np.linalg.lstsq(line, read, rcond=None)[0]
+    of_slack, of_held = np.std(read - drift, axis=0)
+    zero = float(np.max(drift[:, 0]))
     same = SAME * problem.noises[Signal.FORCE].std
-    pull = measured - expected
-    held = float(np.std(pull - line @ np.linalg.lstsq(line, pull, rcond=None)[0]))
     if abs(zero) >= MOST * problem.full_scale[Signal.FORCE]:
         return None
-    if np.std(measured - known) >= same or (pushes and held < same):
+    if of_slack >= same or (pushes and of_held < same):
         return None
     return zero if abs(zero) > NEAR * taut else 0.0
