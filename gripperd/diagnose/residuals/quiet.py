@@ -82,9 +82,10 @@ def _held(course: Course, top: float) -> Mask:
     pressure, way = course.level("pressure"), course.level("contraction")
     if not (np.isfinite(pressure).all() and top > 0):
         return held
-    known = np.isfinite(way).all()
-    columns = np.vstack([pressure / (HELD * top), way / TRAVEL if known else 0 * way])
-    start, stop = compiled(_longest)(columns if known else columns[:1])
+    columns = [pressure / (HELD * top)]
+    if np.isfinite(way).all():
+        columns.append(way / TRAVEL)
+    start, stop = compiled(_longest)(np.vstack(columns))
     held[start:stop] = True
     if start > 0:
         held &= course.time >= course.time[start] + ARRIVED
