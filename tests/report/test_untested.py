@@ -42,7 +42,7 @@ def test_what_the_model_has_is_kept_in_its_form(creep: Diagnosis) -> None:
 
 def test_the_page_keeps_the_model_apart_from_the_recording(creep: Diagnosis) -> None:
     text = page(creep, model="as-drawn", program="0.1.0")
-    before, after = text.split("What was not tested for the sake of this model")
+    before, after = text.split("Not tested with this model")
     assert f"<li>{MODEL_LINE}</li>" in after
     assert "not measured</li>" in before
     assert "What this recording cannot show" in before
@@ -50,5 +50,5 @@ def test_the_page_keeps_the_model_apart_from_the_recording(creep: Diagnosis) -> 
 
 def test_a_page_without_either_has_no_empty_heading(creep: Diagnosis) -> None:
     text = page(replace(creep, untested={}), model="as-drawn", program="0.1.0")
-    assert "What was not tested for the sake of this model" not in text
+    assert "Not tested with this model" not in text
     assert "What this recording cannot show" not in text
