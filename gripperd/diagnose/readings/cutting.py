@@ -7,10 +7,12 @@ from itertools import pairwise
 import numpy as np
 
 from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.command import as_commanded, stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
 from gripperd.diagnose.readings.frame import with_yielding_frame
+from gripperd.diagnose.readings.length import wandering
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.readings.row import rows
@@ -64,12 +66,14 @@ def courses(
         raise InputError(message, key="run")
     sweeps = as_commanded(sweeps)
     noises, on_stairs = _noises(recording, sweeps, rest_length)
+    length = wandering(sweeps, noises.get("contraction", Noise(0.0, 0.0)))
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
     found = [
-        _course(sweep, noises, cycle, repeat, start, on_stairs=on_stairs)
+        _course(sweep, smoothed, cycle, repeat, start, on_stairs=on_stairs)
         for sweep, cycle, repeat in zip(
             sweeps, cycles(sweeps), rows(sweeps), strict=True
         )
+        for smoothed in [levels(sweep, noises, length, on_stairs=on_stairs)]
     ]
     if "contraction" in noises:
         found = with_yielding_frame(found, noises["contraction"])
@@ -115,7 +119,7 @@ def _noises(
 
 def _course(
     sweep: Run,
-    noises: Mapping[str, Noise],
+    smoothed: Mapping[str, Smooth],
     cycle: Array,
     repeat: float,
     start: float,
@@ -123,7 +127,6 @@ def _course(
     on_stairs: bool,
 ) -> Course:
     time = sweep.columns["time"]
-    smoothed = levels(sweep, noises, on_stairs=on_stairs)
     known, still = smoothed.get("contraction"), stillness(sweep)
     least = JAWS if sweep.has("opening") else STILL
     return Course(

@@ -16,6 +16,7 @@ from gripperd.diagnose.noise.smoothing import (
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.legs import borne_out, legs_of
+from gripperd.diagnose.readings.length import as_unsure
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.rest import at_rest
 from gripperd.diagnose.readings.travel import (
@@ -45,7 +46,7 @@ LEAST = 20
 
 
 def levels(
-    sweep: Run, noises: Mapping[str, Noise], *, on_stairs: bool = False
+    sweep: Run, noises: Mapping[str, Noise], length: Noise, *, on_stairs: bool = False
 ) -> dict[str, Smooth]:
     """Take the noise off every column that effects look at.
 
@@ -55,6 +56,8 @@ def levels(
         Without a pause.
     noises
         Of each measured column, by its name.
+    length
+        Noise of the contraction, as far as it wanders.
     on_stairs
         Whether the pressure goes in stairs that no trend can follow.
 
@@ -77,7 +80,8 @@ def levels(
         found["length"] = _length(sweep, noises)
         bent = bending(sweep, "contraction", found["contraction"])
         held = _not_past(sweep, bent)
-        found["contraction"] = _steady(sweep, _unswung(sweep, held))
+        unswung = as_unsure(_unswung(sweep, held), length)
+        found["contraction"] = _steady(sweep, unswung)
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs

@@ -5,11 +5,11 @@ import numpy as np
 from gripperd.diagnose.noise.drift import Quiet, hold, repeat
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.held import longest_held
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.row import alike
 from gripperd.diagnose.readings.travel import TRAVEL
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.model.compiled import compiled
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -85,25 +85,11 @@ def _held(course: Course, top: float) -> Mask:
     columns = [pressure / (HELD * top)]
     if np.isfinite(way).all():
         columns.append(way / TRAVEL)
-    start, stop = compiled(_longest)(np.vstack(columns))
-    held[start:stop] = True
-    if start > 0:
-        held &= course.time >= course.time[start] + ARRIVED
+    stretch = longest_held(np.vstack(columns))
+    held[stretch] = True
+    if stretch.start > 0:
+        held &= course.time >= course.time[stretch.start] + ARRIVED
     return held
-
-
-def _longest(columns: Array) -> tuple[int, int]:
-    """Longest of the stretches in which every column stays within 1, one by one."""
-    best, until, start = 0, 0, 0
-    low, high = columns[:, 0].copy(), columns[:, 0].copy()
-    for i in range(columns.shape[1]):
-        low, high = np.minimum(low, columns[:, i]), np.maximum(high, columns[:, i])
-        if np.any(high - low > 1.0):
-            start = i
-            low, high = columns[:, i].copy(), columns[:, i].copy()
-        if i + 1 - start > until - best:
-            best, until = start, i + 1
-    return best, until
 
 
 def repeated(
