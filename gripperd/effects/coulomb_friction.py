@@ -54,7 +54,7 @@ class CoulombFriction(InMuscle):
     magnitude: float = amplitude(unit="N", scale=20.0, low=0.0, high=300.0)
     """Of the force. [N]"""
     distance: float = shape(
-        unit=None, starts=(0.0, 1e-3), low=0.0, high=2e-3, switches=True
+        unit=None, starts=(0.0, 3e-4, 1e-3), low=0.0, high=2e-3, switches=True
     )
     """Contraction over which it turns round; 0 for at once. [-]"""
     slip: float = shape(

@@ -56,7 +56,7 @@ class PressureFriction(InMuscle):
     exponent: float = shape(unit=None, starts=(1.0, 0.5, 0.75, 1.5), low=0.3, high=2.0)
     """Power of pressure, b. [-]"""
     distance: float = shape(
-        unit=None, starts=(0.0, 1e-3), low=0.0, high=2e-3, switches=True
+        unit=None, starts=(0.0, 3e-4, 1e-3), low=0.0, high=2e-3, switches=True
     )
     """Contraction over which it turns round; 0 for at once. [-]"""
     slip: float = shape(
