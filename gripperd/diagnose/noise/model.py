@@ -47,6 +47,11 @@ class Noise:
         """Variance of one sample as a mean over many samples sees it."""
         return self.std**2 * (1 + 2 * self.correlation / (1 - self.persistence))
 
+    @property
+    def lasting(self) -> float:
+        """Times louder a mean over many samples hears it than one reading. [-]."""
+        return self.slow_variance**0.5 / self.std if self.std > 0 else 1.0
+
     def correlations(self, lags: Array) -> Array:
         """Between samples that many apart, without the drift. [-]."""
         alike = (1 - self.white) * self.persistence ** np.abs(lags)

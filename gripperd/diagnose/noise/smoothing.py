@@ -49,6 +49,8 @@ class Smooth(NamedTuple):
     """Standard deviation of the value, as the whole column has it."""
     broken: bool = False
     """Whether it was given every corner that can be told from noise."""
+    lasting: float = 1.0
+    """Times louder a mean over many samples hears its noise than one reading. [-]"""
     unsure: Array | bool = False
     """Samples of a way that may have been gone there and back, or by noise alone."""
 

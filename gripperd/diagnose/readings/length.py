@@ -88,3 +88,9 @@ def as_unsure(known: Smooth, noise: Noise) -> Smooth:
     most = noise.std**2 * (1 - noise.white) + known.spread**2
     spread = min(louder * known.spread**2, most) ** 0.5
     return known._replace(spread=spread, variance=louder * known.variance)
+
+
+def at_its_mean(known: Smooth) -> Smooth:
+    """Give a length that does not travel: it has no corners, and a mean of readings."""
+    doubt = (known.variance / known.value.size) ** 0.5
+    return known._replace(doubt=doubt)

@@ -16,7 +16,7 @@ from gripperd.diagnose.noise.smoothing import (
 from gripperd.diagnose.readings.followed import followed
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.legs import borne_out, legs_of
-from gripperd.diagnose.readings.length import as_unsure
+from gripperd.diagnose.readings.length import as_unsure, at_its_mean
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.rest import at_rest
 from gripperd.diagnose.readings.travel import (
@@ -77,11 +77,13 @@ def levels(
         if sweep.has(name)
     }
     if "contraction" in found:
-        found["length"] = _length(sweep, noises)
+        found["length"] = _length(sweep, noises, length)
         bent = bending(sweep, "contraction", found["contraction"])
         held = _not_past(sweep, bent)
         unswung = as_unsure(_unswung(sweep, held), length)
         found["contraction"] = _steady(sweep, unswung)
+        if not found["contraction"].rate.any():
+            found["length"] = at_its_mean(found["contraction"])
     if "pressure" in found and sweep.has("current"):
         found["pressure"] = _beside_command(
             sweep, found["pressure"], noises, on_stairs=on_stairs
@@ -102,13 +104,14 @@ def _tried(name: str) -> Array:
     return OF_LENGTH if name in ("contraction", "current") else STIFFNESSES
 
 
-def _length(sweep: Run, noises: Mapping[str, Noise]) -> Smooth:
+def _length(sweep: Run, noises: Mapping[str, Noise], length: Noise) -> Smooth:
     """Contraction whose corners stay sharp, at the price of some noise."""
     noise = noises["contraction"]
     time, contraction = sweep.columns["time"], sweep.columns["contraction"]
     found = smooth(time, contraction, noise.slow_variance, SUPPLE, tried=OF_LENGTH)
     # No trend is further off than the reading that it follows.
-    return found._replace(doubt=np.minimum(found.doubt, noise.std))
+    doubt = np.minimum(found.doubt, noise.std)
+    return found._replace(doubt=doubt, lasting=length.lasting)
 
 
 def _steady(sweep: Run, known: Smooth) -> Smooth:

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.explanation import Explanation
@@ -29,7 +30,7 @@ def own_shares(
     model: Explanation,
     courses: Sequence[Course],
     blocks: Sequence[Block],
-    stds: Sequence[float],
+    noises: Sequence[Noise],
     length: str = LENGTH,
 ) -> list[Array]:
     """Share of the uncertainty of each reading that readings of its kind have anyway.
@@ -43,8 +44,8 @@ def own_shares(
     blocks
         Readings to explain; of them only a force follows from a pressure and a length
         that are read otherwise in one sweep than in another.
-    stds
-        Of the noise of one reading, block by block. [SI]
+    noises
+        Of the readings, block by block. [SI]
     length
         Column it is taken from: its trend is ``contraction``.
 
@@ -54,7 +55,11 @@ def own_shares(
     exactly. [-]
     """
     handed = [_of_pressure(model, courses[block.course], block) for block in blocks]
-    lengths = [of_length(model, courses[one.course], one, length) for one in blocks]
+    lengths = [
+        _lasting(courses[one.course], noise, length)
+        * of_length(model, courses[one.course], one, length)
+        for one, noise in zip(blocks, noises, strict=True)
+    ]
     forces = [
         one
         for one, block in zip(handed, blocks, strict=True)
@@ -62,10 +67,19 @@ def own_shares(
     ]
     usual = float(np.median(np.concatenate(forces))) if forces else 0.0
     return [
-        np.hypot(std, usual)
-        / np.sqrt(std**2 + np.maximum(pressure, usual) ** 2 + way**2)
-        for pressure, way, std in zip(handed, lengths, stds, strict=True)
+        np.hypot(noise.std, usual)
+        / np.sqrt(noise.std**2 + np.maximum(pressure, usual) ** 2 + way**2)
+        for pressure, way, noise in zip(handed, lengths, noises, strict=True)
     ]
+
+
+def _lasting(course: Course, noise: Noise, length: str) -> float:
+    """How much longer the noise of a length lasts than that of its force. [-].
+
+    What is left of a force is held against noise that lasts as long as its own.
+    """
+    known = course.smooth.get(length)
+    return max(known.lasting / noise.lasting, 1.0) if known else 1.0
 
 
 def of_length(

@@ -273,14 +273,14 @@ class Problem:
     @cached_property
     def shares(self) -> list[Array]:
         """What :func:`own_shares` gives, block by block."""
-        stds = [(block.noise or self.noises[block.signal]).std for block in self.blocks]
-        return own_shares(self.model, self.courses, self.blocks, stds)
+        noises = [block.noise or self.noises[block.signal] for block in self.blocks]
+        return own_shares(self.model, self.courses, self.blocks, noises)
 
     def floor(self, signal: Signal) -> float:
         """Root mean square of a signal about a model that misses nothing. [SI]."""
         noise = self.noises[signal]
         blocks = [block for block in self.blocks if block.signal is signal]
-        known = [noise.std] * len(blocks)
+        known = [noise] * len(blocks)
         shares = own_shares(self.model, self.courses, blocks, known, "contraction")
         stds = [noise.std / share for share in shares]
         return float(np.hypot(np.sqrt(np.mean(np.concatenate(stds) ** 2)), noise.drift))

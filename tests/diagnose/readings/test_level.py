@@ -55,6 +55,17 @@ def test_a_length_is_no_less_known_than_each_reading_of_it() -> None:
     assert wrong < np.max(course.doubt("length")) < 1.1e-3
 
 
+def test_a_length_that_is_held_has_no_corners() -> None:
+    course, *_ = cut(*(
+        run(f"{seed}", contraction=0.1 + noise(400, 1e-3, seed, memory=0.8))
+        for seed in range(6)
+    ))  # fmt: skip
+    assert np.ptp(course.level("length")) == 0.0
+    assert course.level("length")[0] == course.level("contraction")[0]
+    # Three times as loud in a mean over many as in one reading, and 20 times less.
+    assert course.doubt("length") == pytest.approx(1e-3 * 3 / 20, rel=0.4)
+
+
 @pytest.mark.parametrize("half", [5e3, 8e3, 12e3, 20e3])
 @pytest.mark.parametrize("came", [-1.0, 0.0, 1.0])
 def test_pressure_keeps_the_corners_of_a_dead_band(half: float, came: float) -> None:

@@ -15,6 +15,7 @@ from gripperd.diagnose.residuals.doubt import own_shares
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.small import MODEL
+from tests.diagnose.sweep import noise
 
 FAST, QUIET = 3e3, Noise(2.0, 0.0)
 """Noise of a pressure transmitter [Pa], and of a force cell [N]."""
@@ -61,11 +62,13 @@ def sweeps() -> dict[str, Course]:
     return {course.run: course for course in found}
 
 
-def _shares(sweeps: Mapping[str, Course], signal: Signal) -> dict[str, Array]:
+def _shares(
+    sweeps: Mapping[str, Course], signal: Signal, noise: Noise = QUIET
+) -> dict[str, Array]:
     every = np.ones(TIME.size, dtype=bool)
     blocks = [Block(place, signal, every) for place in range(len(sweeps))]
-    stds = [QUIET.std] * len(blocks)
-    found = own_shares(BLADDERLESS, list(sweeps.values()), blocks, stds)
+    noises = [noise] * len(blocks)
+    found = own_shares(BLADDERLESS, list(sweeps.values()), blocks, noises)
     return dict(zip(sweeps, found, strict=True))
 
 
@@ -109,7 +112,7 @@ LOUD = 2e-3
 """Noise of a contraction: 0.6 mm on 300 mm. [-]"""
 
 
-def _lengths() -> dict[str, Course]:
+def _lengths(memory: float = 0.0) -> dict[str, Course]:
     """One pressure: a length that goes there and back, and one that is held."""
     rng = np.random.default_rng(7)
     way = 0.15 * (1 - np.abs(TIME / 20.0 - 1))
@@ -119,13 +122,13 @@ def _lengths() -> dict[str, Course]:
             {
                 "time": start + TIME,
                 "pressure": np.full_like(TIME, 300e3),
-                "contraction": length + rng.normal(0.0, LOUD, TIME.size),
+                "contraction": length + noise(TIME.size, LOUD, seed, memory),
                 "force": rng.normal(0.0, QUIET.std, TIME.size),
             },
         )
-        for start, name, length in (
-            (0.0, "travels", way),
-            (100.0, "held", np.full_like(TIME, 0.08)),
+        for start, name, length, seed in (
+            (0.0, "travels", way, 8),
+            (100.0, "held", np.full_like(TIME, 0.08), 9),
         )
     ]
     found, _ = courses(Recording("loud", "0" * 64, tuple(runs)), 0.3)
@@ -146,8 +149,23 @@ def test_a_length_that_travels_makes_a_force_as_doubtful_as_its_slope() -> None:
     assert np.std(wrong) < np.sqrt(np.mean(told**2)) < 1.4 * np.std(wrong)
 
 
-def test_a_length_that_is_held_is_known_well() -> None:
-    assert _shares(_lengths(), Signal.FORCE)["held"].min() > 0.9
+@pytest.mark.parametrize("memory", [0.0, 0.8])
+def test_a_length_that_is_held_is_known_well(memory: float) -> None:
+    assert _shares(_lengths(memory), Signal.FORCE)["held"].min() > 0.85
+
+
+def test_noise_of_a_length_that_lasts_makes_a_mean_of_forces_as_doubtful() -> None:
+    """First-order noise that keeps r is root (1+r)/(1-r) times as loud in a mean."""
+    sweeps, kept = _lengths(0.8), 0.8
+    lasting = ((1 + kept) / (1 - kept)) ** 0.5
+
+    def told(noise: Noise) -> float:
+        share = _shares(sweeps, Signal.FORCE, noise)["travels"]
+        return float(np.sqrt(np.mean(QUIET.std**2 * (1 / share**2 - 1))))
+
+    as_lasting = Noise(QUIET.std, kept)
+    assert told(QUIET) == pytest.approx(lasting * told(as_lasting), rel=0.25)
+    assert as_lasting.lasting == pytest.approx(lasting)
 
 
 def test_a_length_says_nothing_of_how_well_a_pressure_is_known() -> None:

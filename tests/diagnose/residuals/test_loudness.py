@@ -56,7 +56,18 @@ def test_a_length_that_is_read_badly_does_not_make_the_force_loud() -> None:
     )  # fmt: skip
     problem = problem_of(loud, MODEL, {})
     assert problem.noises[Signal.FORCE].std == pytest.approx(FORCE_NOISE, rel=0.25)
-    assert problem.floor(Signal.FORCE) > 1.3 * FORCE_NOISE
+    wrong = np.concatenate(
+        [
+            problem.courses[block.course].column("force")[block.good] - made
+            for block, made in zip(
+                problem.blocks, problem.expected(problem.model), strict=True
+            )
+            if block.signal is Signal.FORCE
+        ]
+    )
+    # The model misses nothing, and the trend of a length so noisy is off.
+    assert np.std(wrong) > 1.05 * FORCE_NOISE
+    assert problem.floor(Signal.FORCE) == pytest.approx(np.std(wrong), rel=0.2)
 
 
 def test_a_converter_of_coarse_steps_is_no_quieter_than_its_steps() -> None:
