@@ -112,9 +112,9 @@ def repeated(
             one, other = (problem.courses[problem.blocks[k].course] for k in (i, j))
             if i in taken or j in taken or not alike(_run(one), _run(other)):
                 continue
-            taken |= {i, j}
             if first != (one.cycle[0] < FIRST):
                 continue
+            taken |= {i, j}
             here, there = _shared(problem.blocks[i].good, problem.blocks[j].good)
             if not here.any():
                 continue

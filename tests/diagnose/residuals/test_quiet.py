@@ -8,7 +8,7 @@ from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.residuals.quiet import driven, vented
+from gripperd.diagnose.residuals.quiet import driven, repeated, vented
 from gripperd.diagnose.setup import problem_of
 from gripperd.model.effect import Signal
 from tests.diagnose.small import MODEL, Moment, recording, textbook
@@ -74,3 +74,16 @@ def test_the_noise_of_holds_that_were_filled_is_heard() -> None:
     told = _problem(_run("one", 1000.0, 400e3), _run("other", 2000.0, 250e3))
     found = told.noises[Signal.FORCE]
     assert found.slow_variance == pytest.approx(TRUE.slow_variance, rel=0.4)
+
+
+def test_a_sweep_is_held_against_its_next_repeat_where_the_one_before_was_new() -> None:
+    """Of three alike the first is that of a new muscle, which may differ."""
+    told = problem_of(recording(order=("b", "b2", "c", "b", "a", "d", "e")), MODEL, {})
+    residuals = told.residuals(Point(np.zeros(len(told.constants))))
+    forces = [i for i, b in enumerate(told.blocks) if b.signal is Signal.FORCE]
+    new, used = (
+        [one.time[0] for one in repeated(told, residuals, forces, first=first)]
+        for first in (True, False)
+    )
+    times = [course.time[0] for course in told.courses]
+    assert (new, used) == ([times[0]], [times[1]])
