@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from gripperd.diagnose.noise.drift import Quiet, coloured, with_drift
+from gripperd.diagnose.noise.drift import Quiet, coloured, shortened, with_drift
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.held import longest_held
@@ -40,7 +40,7 @@ def wandering(sweeps: Iterable[Run], noise: Noise) -> Noise:
         for sweep in sweeps
         if sweep.has("contraction") and not sweep.has("opening")
     ]
-    quiet = [one for sweep in ways for one in _held(sweep)]
+    quiet = shortened(one for sweep in ways for one in _held(sweep))
     if not quiet or noise.std <= 0:
         return noise
     top = max(float(np.nanmax(sweep.columns["contraction"])) for sweep in ways)
