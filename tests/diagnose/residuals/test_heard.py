@@ -38,5 +38,6 @@ def test_lengths_that_were_set_and_not_measured_have_none() -> None:
     """The steps between them are no noise, though no reading tells them apart."""
     whole = altered(recording(nothing), moments(), "contraction", lambda h: h.round(2))
     few = replace(whole, runs=tuple(run for run in whole.runs if run.name in HELD))
+    # Lengths 0.08 apart, as if by steps (0.08 / root 12), in a mean of 60 to 100.
     assert _doubt(few, *HELD, heard=False) > 2e-3
     assert _doubt(few, *HELD) == 0.0
