@@ -16,11 +16,9 @@ TENTH = 0.1
 class ElasticCurve(InMuscle):
     r"""An elastic force, odd in contraction and 0 at rest length.
 
-    .. math:: F(h) = \operatorname{sgn} h \left[a (1 - e^{-u (1 + k u)})
+    .. math:: F(h) = \operatorname{sgn} h \left[a (1 - e^{-|h|/h_c})
               + b \left(\frac{h}{0.1}\right)^2
-              + c \left|\frac{h}{0.1}\right|^3 \right], \quad u = |h|/h_c
-
-    With k = 0.28 the first term is within 1 % of a hyperbolic tangent.
+              + c \left|\frac{h}{0.1}\right|^3 \right]
     """
 
     saturation: float = amplitude(unit="N", scale=50.0, low=-600.0, high=600.0)
@@ -31,15 +29,12 @@ class ElasticCurve(InMuscle):
     """Force at a contraction of 0.1 that grows with its cube, c. [N]"""
     contraction: float = shape(unit=None, starts=(0.03, 0.01, 0.1), low=0.003, high=0.3)
     """Contraction over which the first saturates, h_c. [-]"""
-    sharpness: float = shape(unit=None, starts=(0.0,), low=0.0, high=3.0, switches=True)
-    """How much sooner than an exponential it has done so, k; 0 for no sooner. [-]"""
 
     def curve(self, contraction: Real) -> Real:
         """Force at a contraction. [N]."""
         away: Real = np.abs(contraction)
         tenths = away / TENTH
-        over = away / self.contraction
-        early: Real = -np.expm1(-over * (1 + self.sharpness * over))
+        early: Real = -np.expm1(-away / self.contraction)
         late = tenths * tenths * (self.quadratic + self.cubic * tenths)
         side: Real = np.sign(contraction)
         return side * (self.saturation * early + late)

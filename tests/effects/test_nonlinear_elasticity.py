@@ -50,15 +50,6 @@ def test_saturation_is_reached_early_and_stays(muscle: Muscle) -> None:
     assert force(muscle, early, 0.25) == pytest.approx(-40.0, abs=2e-4)
 
 
-@pytest.mark.parametrize("contraction", np.linspace(0.0, 0.1, 11))
-def test_a_sharp_knee_is_that_of_a_hyperbolic_tangent(
-    muscle: Muscle, contraction: float
-) -> None:
-    sharp = NonlinearElasticity(40.0, contraction=0.0185, sharpness=0.28)
-    tangent = 40.0 * np.tanh(contraction / 0.02)
-    assert force(muscle, sharp, contraction) == pytest.approx(-tangent, abs=0.4)
-
-
 def test_powers_have_their_size_at_a_tenth(muscle: Muscle) -> None:
     square, cube = NonlinearElasticity(quadratic=7.0), NonlinearElasticity(cubic=3.0)
     at_tenth, at_fifth = (

@@ -24,10 +24,10 @@ from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import in_use
 from gripperd.model.track import Array
 
-ROUNDS = 12
+ROUNDS = 30
 TRIALS = 7
 """Steps that are tried in a round, each damped ten times as much as the one before."""
-DAMPED = 0.01
+DAMPED = 0.001
 """First damping after a step that did not help, of the diagonal. [-]"""
 RELATIVE = 2e-5
 """Fall of the cost, of itself, below which another round is not worth it. [-]"""

@@ -10,7 +10,6 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.knee import with_sharp_knee
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.reading import as_read
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
@@ -77,5 +76,5 @@ def selected(
     best = with_overstepped(found, best, listed)
     best = with_usual_tolerances(found, best)
     found, best = with_transients(found, best, listed, train.noises)
-    best = with_sharp_knee(found, with_stiction(found, best))
+    best = with_stiction(found, best)
     return Selection(replace(parts, train=train, test=test), found, best)

@@ -7,15 +7,13 @@ References
 """
 
 from dataclasses import replace
-from functools import partial
 
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.refined import refined
 from gripperd.diagnose.search.resting import DECIDED, rests
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.rivalry import Contest, Place, standing_in
 from gripperd.model.effect import Effect
 from gripperd.model.parameter import parameters
 
@@ -45,7 +43,16 @@ def with_stiction(found: Found, best: Contest) -> Contest:
         sticking = _plainest(problem, _held(problem, told))
         if told.fit.cost - sticking.fit.cost >= 2 * DECIDED:
             told = sticking
-    return refined(found, best, told, partial(_alike, problem, told))
+    if told is best.best:
+        return best
+    places = tuple(
+        Place(
+            _alike(problem, place.without, told),
+            tuple(_alike(problem, one, told) for one in place.rivals),
+        )
+        for place in best.places
+    )
+    return standing_in(found, Contest(told, places))
 
 
 def _held(problem: Problem, rival: Rival) -> Rival:
@@ -53,7 +60,7 @@ def _held(problem: Problem, rival: Rival) -> Rival:
     return replace(rival, fit=polished(problem, point))
 
 
-def _alike(problem: Problem, told: Rival, rival: Rival) -> Rival:
+def _alike(problem: Problem, rival: Rival, told: Rival) -> Rival:
     """Let a rival hold as well what is told is held, if it is a friction as well."""
     sticks = told.fit.point.stiction > 0 and DRY & {*rival.names}
     return _plainest(problem, _held(problem, rival)) if sticks else rival
