@@ -156,10 +156,12 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
 def _artefacts(problem: Problem) -> Iterator[Artefact]:
     if any(np.isfinite(c.level("temperature")).any() for c in problem.courses):
         yield WarmCell(rate=0.5)
-    spans = sorted(
-        (float(c.time[0] - c.start), float(c.time[-1] - c.start))
-        for c in problem.courses
-    )
-    for (_, end), (start, _) in pairwise(spans):
-        yield Jump(size=10.0, at=(end + start) / 2)
-        yield Snap(loss=0.02, at=(end + start) / 2)
+    in_turn = sorted(problem.courses, key=lambda course: float(course.time[0]))
+    over = [float(course.cycle[0]) for course in in_turn]
+    once = next((count for count in over if count > 0), np.inf)
+    for (before, after), count in zip(pairwise(in_turn), over[1:], strict=True):
+        at = float(before.time[-1] + after.time[0]) / 2 - before.start
+        yield Jump(size=10.0, at=at)
+        # What is weaker once it was inflated for the first time is run in.
+        if count != once:
+            yield Snap(loss=0.02, at=at)

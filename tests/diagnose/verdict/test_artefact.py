@@ -111,6 +111,19 @@ def test_fatigue_is_no_snap() -> None:
     assert _seen(recording(_tired), Fatigue(loss=0.002))[1] is None
 
 
+def _run_in(moment: Moment) -> Array:
+    """A muscle that pulls more in its first inflation."""
+    more = 0.04 * moment.pressure * moment.pull_area
+    return np.where(moment.time > moments()["a"].time[-1], 0.0, more)
+
+
+@pytest.mark.parametrize("second", ["b", "vented"])
+def test_a_muscle_that_is_run_in_has_not_snapped(second: str) -> None:
+    others = [name for name in moments() if name not in ("a", second)]
+    told = recording(_run_in, order=["a", second, *others])
+    assert _seen(told, Fatigue(loss=0.002))[1] is None
+
+
 def _warmed(told: Recording, extra: Hidden) -> Recording:
     """The same with sweeps at 5 °C and 35 °C, and a force that is there only then."""
     warmth = {"d": 278.15, "e": 308.15, "b2": 308.15}
