@@ -180,6 +180,11 @@ class ValveEffect(Effect, Protocol):
 class GripperEffect(Effect, Protocol):
     """It changes the opening or the grip."""
 
+    @property
+    def leans(self) -> bool:
+        """Whether what rubs goes the way of the load, for jaws hardly travel."""
+        ...
+
     def transmitted(self, grip: Real, direction: Real) -> Real:
         """Grip force it leaves of one, once settled, in proportion to it. [N]."""
         ...

@@ -101,6 +101,11 @@ class InGripper(Memoryless):
     __slots__ = ()
     stage: ClassVar[Stage] = Stage.GRIPPER
 
+    @property
+    def leans(self) -> bool:
+        """Nothing rubs."""
+        return False
+
     def widening(self, grip: Real, pull: Real) -> Real:
         """None: the jaws stand where the linkage says. [m]."""
         return 0.0 * grip

@@ -1,4 +1,7 @@
-"""Dry friction that turns round over a way as short as readings can tell."""
+"""Dry friction: over what way it turns round, and with what."""
+
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -7,14 +10,29 @@ from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.effects import EFFECTS
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.linkage_friction import LinkageFriction, Turning
+from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-from tests.diagnose.small import MODEL, Moment, textbook
+from tests.diagnose.small import (
+    LINKAGE,
+    MODEL,
+    Moment,
+    altered,
+    moments,
+    recording,
+    textbook,
+    with_grip,
+)
 
 SIZE = 240
 OVER = 3.5e-4
 """Contraction over which it turns round by all but 1/e. [-]"""
 LOOPS = (0.0, 0.02), (60e3, 0.05), (150e3, 0.08), (300e3, 0.1), (450e3, 0.12)
 """Pressures and lengths around which the muscle goes to and fro. [Pa], [-]"""
+JAWS = (
+    "linkage_friction", "linkage_backlash", "jaw_compliance", "force_sensor_gain",
+    "force_sensor_bias",
+)  # fmt: skip
 
 
 def test_a_short_way_in_which_friction_turns_is_told() -> None:
@@ -59,3 +77,21 @@ def _turned(way: Array) -> Array:
         sign = ahead - (ahead - sign) * np.exp(-abs(step) / OVER)
         found[index] = sign
     return found
+
+
+def test_joints_that_keep_the_sign_of_their_travel_are_told_by_it() -> None:
+    """Squeezed and let go at one width, they rub as they closed all the while."""
+    told = with_grip(recording())
+    for name, moment in moments().items():
+        kept = 1.0 - 0.08 * moment.direction
+        told = altered(told, (name,), "grip", partial(np.multiply, kept))
+    model = replace(MODEL, linkage=LINKAGE)
+    library = {name: EFFECTS[name] for name in JAWS}
+    found = diagnose(told, model, {}, library)
+    assert [entry.name for entry in found.named] == ["linkage_friction"]
+    (joints,) = found.explained.effects
+    assert isinstance(joints, LinkageFriction)
+    assert joints.by is Turning.TRAVEL
+    assert joints.loss == pytest.approx(0.08, rel=0.05)
+    gap = found.gaps[Signal.GRIP]
+    assert gap.after < 1.05 * gap.noise_floor

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gripperd.effects.linkage_friction import LinkageFriction
+from gripperd.effects.linkage_friction import LinkageFriction, Turning
 from gripperd.model import Direction, Muscle
 from tests.effects.tracks import eventful, samples, track_of
 
@@ -42,8 +42,32 @@ def test_a_load_that_stays_turns_nothing(muscle: Muscle) -> None:
     assert found == pytest.approx(45.0)
 
 
-def test_joints_that_turn_go_on_from_call_to_call(muscle: Muscle) -> None:
-    effect = LinkageFriction(pull_loss=0.05, turn=50.0)
+def test_joints_may_turn_with_the_way_of_the_muscle_whatever_it_pulls(
+    muscle: Muscle,
+) -> None:
+    effect = LinkageFriction(loss=0.1, turn=50.0, distance=1e-3, by=Turning.TRAVEL)
+    track = track_of(
+        muscle,
+        contraction=np.array([0.05, 0.06, 0.06, 0.06, 0.059, 0.058, 0.05]),
+        force=np.array([200.0, 400.0, 900.0, 300.0, 200.0, 200.0, 200.0]),
+        direction=np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0]),
+    )
+    found = effect.along(np.full(7, 100.0), track, effect.rest())
+    # 1 - 2 exp(-n) of the way round, n distances after the reversal.
+    turned = [1.0, 1.0, 1.0, 1.0, 2 / np.e - 1, 2 / np.e**2 - 1, 2 / np.e**10 - 1]
+    assert found == pytest.approx(100 - 10 * np.array(turned))
+
+
+@pytest.mark.parametrize(
+    "effect",
+    [
+        LinkageFriction(pull_loss=0.05, turn=50.0),
+        LinkageFriction(loss=0.3, distance=1e-3, by=Turning.TRAVEL),
+    ],
+)
+def test_joints_that_turn_go_on_from_call_to_call(
+    muscle: Muscle, effect: LinkageFriction
+) -> None:
     track = eventful(muscle)
     whole = effect.along(np.full_like(track.time, 100.0), track, effect.rest())
     memory = effect.rest()

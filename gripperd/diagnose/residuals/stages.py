@@ -83,7 +83,7 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
         track = _strained(explanation, track)
     if signal is Signal.GRIP:
         made = partial(_happened, explanation, Signal.FORCE)
-        track = _leaned(_pulled(track, made, _rounds(explanation)))
+        track = _leaned(explanation, _pulled(track, made, _rounds(explanation)))
     value = _START[signal](explanation, track)
     for effect in explanation.effects:
         if effect.signal is signal and effect.stage is not Stage.SENSOR:
@@ -111,7 +111,10 @@ def _rounds(explanation: Explanation) -> int:
     return 2 if any(map(acts_in_gripper, explanation.effects)) else 1
 
 
-def _leaned(track: Runs) -> Runs:
+def _leaned(explanation: Explanation, track: Runs) -> Runs:
+    """The way joints rub: that of their load, unless they keep that of the travel."""
+    if not any(acts_in_gripper(one) and one.leans for one in explanation.effects):
+        return track
     return replace(track, direction=track.each(_rubbing, track.force))
 
 
@@ -241,7 +244,7 @@ def passed_on(
         beside = course.column("force") - course.level("force")
         sharp = replace(sharp, force=track.force + beside)
         sharp, track = (_felt(explanation, one) for one in (sharp, track))
-        track = _leaned(track)
+        track = _leaned(explanation, track)
         sharp = replace(sharp, direction=track.direction)
     rough, smooth = (at_once(explanation, one, signal) for one in (sharp, track))
     return np.nan_to_num(rough - smooth)

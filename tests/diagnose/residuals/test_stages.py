@@ -16,7 +16,7 @@ from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_gain import ForceSensorGain
-from gripperd.effects.linkage_friction import LinkageFriction
+from gripperd.effects.linkage_friction import LinkageFriction, Turning
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
 from gripperd.effects.series_compliance import SeriesCompliance
 from gripperd.effects.viscous_friction import ViscousFriction
@@ -345,10 +345,11 @@ def test_the_grip_rubs_the_way_its_load_goes() -> None:
     told = run(contraction=np.full(201, 0.08), force=force, grip=force / 4)
     (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
     assert not course.direction.any()
-    rubbing = JAWED.with_effect(LinkageFriction(loss=0.1))
-    share = _one(rubbing, course, Signal.GRIP) / _one(JAWED, course, Signal.GRIP)
-    np.testing.assert_allclose(share[20:100], 0.9)
-    np.testing.assert_allclose(share[125:], 1.1)
+    for by, unloading in ((Turning.LOAD, 1.1), (Turning.TRAVEL, 0.9)):
+        rubbing = JAWED.with_effect(LinkageFriction(loss=0.1, by=by))
+        share = _one(rubbing, course, Signal.GRIP) / _one(JAWED, course, Signal.GRIP)
+        np.testing.assert_allclose(share[20:100], 0.9)
+        np.testing.assert_allclose(share[125:], unloading)
 
 
 @pytest.mark.parametrize(
