@@ -145,7 +145,7 @@ _MOVES: Mapping[str, frozenset[Signal]] = {
     "muscle.rest_length": _JAWS | {Signal.FORCE},
     "valve": frozenset({Signal.PRESSURE}),
     "gripper": _JAWS,
-    "rest": frozenset({Signal.FORCE}),
+    "rest": frozenset({Signal.FORCE, Signal.GRIP}),
     "response.valve": frozenset({Signal.PRESSURE}),
     "skew.pressure": frozenset({Signal.FORCE}),
     "skew.contraction": _JAWS | {Signal.FORCE},

@@ -8,14 +8,17 @@ from gripperd.diagnose.residuals.explanation import moves
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.response import responses, sensitivities
+from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
+from gripperd.effects.linkage_friction import LinkageFriction, Turning
 from gripperd.effects.series_compliance import SeriesCompliance
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.track import Array
+from tests.diagnose.small import LINKAGE, MODEL, recording, with_grip
 
 
 @pytest.fixture
@@ -74,6 +77,27 @@ def test_the_sign_at_rest_changes_its_own_sweep_alone(
     for block, response in zip(blank.blocks, slopes, strict=True):
         if block.course != course:
             assert not response.any()
+
+
+def test_joints_that_rub_as_they_came_feel_the_sign_at_rest() -> None:
+    model = replace(MODEL, linkage=LINKAGE)
+    squeezed = problem_of(with_grip(recording()), model, {})
+    free = Point(np.zeros(len(squeezed.constants)))
+    rubbing = free.with_effect(LinkageFriction(loss=0.1, by=Turning.TRAVEL))
+    # The first is vented, and presses on nothing.
+    (_, index, *_) = (
+        i for i, one in enumerate(squeezed.constants) if one.path.startswith("rest.")
+    )
+    sign = squeezed.constants[index]
+    grips = squeezed.expected(squeezed.explanation(free))
+    slopes = sensitivities(squeezed, rubbing)[index]
+    (place,) = (
+        i
+        for i, block in enumerate(squeezed.blocks)
+        if (block.course, block.signal) == (sign.course, Signal.GRIP)
+    )
+    assert grips[place].max() > 100.0
+    assert slopes[place] == pytest.approx(-0.1 * sign.sigma * grips[place], abs=1e-9)
 
 
 @pytest.mark.parametrize("end", [-1, 1])
