@@ -43,11 +43,13 @@ class Jaws:
         "_linkage",
         "_loaded",
         "_lost",
+        "_object",
         "_opening_stiffness",
         "_passed",
         "_ratio",
         "_series",
         "_settings",
+        "_stiffens",
         "_stiffness",
         "_stop",
         "_touch",
@@ -66,10 +68,7 @@ class Jaws:
         self._linkage = linkage
         self._settings = settings
         self._loaded = loaded = LoadedLinkage(linkage, effects)
-        self._series = loaded.series_compliance
-        self._bending = loaded.jaw_compliance + self._series * linkage.ratio
-        # Closing per shortening, with the stretch that the return spring costs.
-        self._ratio = linkage.ratio - self._series * linkage.spring_rate
+        self._stiffens = loaded.stiffens
         self._passed = {way: float(loaded.passed(way)) for way in Direction}
         self._lost = 0.0
         self._stop = linkage.open_width / linkage.ratio
@@ -87,17 +86,19 @@ class Jaws:
     @property
     def opening(self) -> float:
         """Distance between the jaws. [m]."""
-        linkage = self._linkage
-        spring = linkage.spring_preload + linkage.spring_rate * self.shortening
-        yielding = self._series * spring + self._bending * self.grip
+        yielding = self._series * self._spring + self._bending * self.grip
         return self.straight + self._lost + yielding
 
     @property
     def pull(self) -> float:
         """Pull of a muscle that holds the jaws where they are. [N]."""
-        linkage, way = self._linkage, self.direction
-        spring = linkage.spring_preload + linkage.spring_rate * self.shortening
-        return float(self._loaded.pull(self.grip, spring, way))
+        return float(self._loaded.pull(self.grip, self._spring, self.direction))
+
+    @property
+    def _spring(self) -> float:
+        return (
+            self._linkage.spring_preload + self._linkage.spring_rate * self.shortening
+        )
 
     @property
     def straight(self) -> float:
@@ -114,9 +115,23 @@ class Jaws:
         stiffness
             Grip force per jaw for a metre of yielding. [N/m]
         """
+        self._object = diameter, stiffness
+        self._bend()
+
+    def _bend(self) -> None:
+        """Take the stiffness of what bends as it is at the present loads."""
         linkage, loaded = self._linkage, self._loaded
-        stretched = self._series * linkage.spring_preload
-        self._contact = linkage.open_width + stretched - diameter
+        diameter, stiffness = self._object
+        pull = self._spring + linkage.ratio * self.grip
+        self._series = series = float(loaded.series_compliance(pull))
+        jaws = float(loaded.jaw_compliance(self.grip))
+        self._bending = jaws + series * linkage.ratio
+        # Closing per shortening, with the stretch that the return spring costs.
+        self._ratio = linkage.ratio - series * linkage.spring_rate
+        stretched = series * linkage.spring_preload
+        self._contact = inf
+        if stiffness:
+            self._contact = linkage.open_width + stretched - diameter
         in_series = stiffness / (1 + stiffness * self._bending)
         self._stiffness = in_series * self._ratio * linkage.ratio
         closing, opening = (
@@ -124,8 +139,6 @@ class Jaws:
             for way in (Direction.CONTRACTING, Direction.EXTENDING)
         )
         self._closing_stiffness, self._opening_stiffness = closing, opening
-        if not stiffness:
-            self._contact = inf
         self.lose(self._lost)
 
     def lose(self, motion: float) -> None:
@@ -171,6 +184,8 @@ class Jaws:
         self.velocity = velocity
         self.shortening = end
         self.grip = self._grip()
+        if self._stiffens:
+            self._bend()
 
     def _grip(self) -> float:
         depth = self.shortening - self._touch

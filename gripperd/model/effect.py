@@ -185,6 +185,11 @@ class GripperEffect(Effect, Protocol):
         """Whether what rubs goes the way of the load, for jaws hardly travel."""
         ...
 
+    @property
+    def stiffens(self) -> bool:
+        """Whether what bends gives less the more of its load there is."""
+        ...
+
     def transmitted(self, grip: Real, direction: Real) -> Real:
         """Grip force it leaves of one, once settled, in proportion to it. [N]."""
         ...
@@ -194,7 +199,7 @@ class GripperEffect(Effect, Protocol):
         ...
 
     def widening(self, grip: Real, pull: Real) -> Real:
-        """Opening beyond what the linkage says, in proportion to both loads. [m].
+        """Opening beyond what the linkage says, of each load a part of its own. [m].
 
         Parameters
         ----------

@@ -106,6 +106,11 @@ class InGripper(Memoryless):
         """Nothing rubs."""
         return False
 
+    @property
+    def stiffens(self) -> bool:
+        """What bends, if any, does so in proportion."""
+        return False
+
     def widening(self, grip: Real, pull: Real) -> Real:
         """None: the jaws stand where the linkage says. [m]."""
         return 0.0 * grip

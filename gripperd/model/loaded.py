@@ -11,33 +11,44 @@ from gripperd.model.linkage import Linkage
 from gripperd.model.real import Real, positive_part
 from gripperd.model.root import falling_root, falling_roots
 
+LEAST = 1e-6
+"""Load at which a part gives as it does without any. [N]"""
+LOOKS = 8
+"""At the pull in a stretch that stiffens: each leaves a sixteenth, in the softest there
+is, of what the one before was off by."""
+
 
 @dataclass(frozen=True, slots=True)
 class LoadedLinkage:
     r"""A linkage with the effects that act in the gripper, settled.
 
-    All of them are in proportion to the loads, so the opening is
+    The opening is
 
     .. math:: w = w_0 - r L h + c_j N + c_s F, \quad
               N = k (F - F_{spring}) / r - q F
 
-    with the compliances of jaws and series, the share k that the joints leave of the
-    grip, and q that they take of the pull. Inside a stretch that the length takes in,
-    the muscle is shorter than h, see :meth:`inside`.
+    with the compliances of jaws and series at these loads, the share k that the joints
+    leave of the grip, and q that they take of the pull. Inside a stretch that the
+    length takes in, the muscle is shorter than h, see :meth:`inside`.
     """
 
     linkage: Linkage
     effects: tuple[GripperEffect, ...]
 
-    @property
-    def jaw_compliance(self) -> float:
-        """Opening per grip force of each jaw. [m/N]."""
-        return self._widening(1.0, 0.0)
+    def jaw_compliance(self, grip: Real) -> Real:
+        """Opening per grip force of each jaw, at one. [m/N]."""
+        load = np.fmax(grip, LEAST)
+        return self._widening(load, 0.0 * load) / load
+
+    def series_compliance(self, pull: Real) -> Real:
+        """Opening per pull of the muscle, at one. [m/N]."""
+        load = np.fmax(pull, LEAST)
+        return self._widening(0.0 * load, load) / load
 
     @property
-    def series_compliance(self) -> float:
-        """Opening per pull of the muscle. [m/N]."""
-        return self._widening(0.0, 1.0)
+    def stiffens(self) -> bool:
+        """Whether anything that bends gives less the more of its load there is."""
+        return any(effect.stiffens for effect in self.effects)
 
     def contraction(
         self, opening: Real, grip: Real, direction: Real, rest_length: float
@@ -56,14 +67,18 @@ class LoadedLinkage:
             Of the muscle. [m]
         """
         linkage = self.linkage
-        bent = opening - self.jaw_compliance * positive_part(grip)
+        pressing = positive_part(grip)
+        bent = opening - self._widening(pressing, 0.0 * pressing)
         straight = linkage.contraction(bent, rest_length)
         spring = linkage.spring_force(straight, rest_length)
-        pull = self.pull(grip, spring, direction)
-        series = self.series_compliance
-        passed = self.passed(direction)
-        closing = linkage.ratio - series * linkage.spring_rate / passed
-        return straight + series * pull / (closing * rest_length)
+        pull = stretching = self.pull(grip, spring, direction)
+        rate = linkage.spring_rate / self.passed(direction)
+        shorter: Real = 0.0
+        for _ in range(LOOKS if self.stiffens else 1):
+            series = self.series_compliance(stretching)
+            shorter = series * pull / (linkage.ratio - series * rate)
+            stretching = pull + rate * shorter
+        return straight + shorter / rest_length
 
     def pull(self, grip: Real, spring: Real, direction: Real) -> Real:
         """Pull of the muscle that holds a grip force against the spring. [N].
@@ -157,5 +172,5 @@ class LoadedLinkage:
         """Grip force that joints take per pull of the muscle. [-]."""
         return sum((effect.taken(1.0, direction) for effect in self.effects), 0.0)
 
-    def _widening(self, grip: float, pull: float) -> float:
-        return sum(float(effect.widening(grip, pull)) for effect in self.effects)
+    def _widening(self, grip: Real, pull: Real) -> Real:
+        return sum((effect.widening(grip, pull) for effect in self.effects), 0.0 * grip)

@@ -268,11 +268,14 @@ def test_the_jaws_lag_by_the_play_and_stand_still_when_it_reverses(
     assert free.opening == pytest.approx(bare.opening - width / 2, abs=1e-6)
 
 
-def test_rub_and_bend_together_grip_as_predicted(chain: Chain) -> None:
+@pytest.mark.parametrize("stiffening", [0.0, 0.04])
+def test_rub_and_bend_together_grip_as_predicted(
+    chain: Chain, stiffening: float
+) -> None:
     effects = (
         LinkageFriction(loss=0.1),
-        JawCompliance(compliance=2e-5),
-        SeriesCompliance(compliance=2e-6, shortening=2e-5),
+        JawCompliance(compliance=2e-5, stiffening=stiffening),
+        SeriesCompliance(compliance=2e-6, shortening=2e-5, stiffening=stiffening / 4),
     )
     plant = grasping(chain, *effects)
     seen = with_effect(chain, *effects).predict(CURRENT, PressedObject(SIZE, STIFFNESS))

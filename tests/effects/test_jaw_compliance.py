@@ -16,6 +16,17 @@ def test_the_opening_is_wider_in_proportion_to_the_grip(muscle: Muscle) -> None:
     assert found == pytest.approx([0.0400, 0.0405, 0.0410])
 
 
+def test_pads_that_are_pressed_flat_give_less() -> None:
+    """As stiff again with 50 N: 0.02 mm at first, and 0.01 mm a newton there."""
+    pads = JawCompliance(compliance=2e-5, stiffening=0.02)
+    loads = np.array([0.0, 1e-3, 50.0, 50.001])
+    given = np.asarray(pads.widening(loads, 0.0))
+    assert np.diff(given)[[0, 2]] == pytest.approx([2e-8, 1e-8], rel=1e-4)
+    assert given[2] == pytest.approx(2e-5 / 0.02 * np.log(2))
+    assert pads.stiffens
+    assert not JawCompliance(compliance=2e-5).stiffens
+
+
 @pytest.mark.parametrize("grip", [-3.0, np.nan])
 def test_fingers_without_an_object_are_straight(muscle: Muscle, grip: float) -> None:
     effect = JawCompliance(compliance=2e-5)

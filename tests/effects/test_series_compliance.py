@@ -36,6 +36,16 @@ def test_a_muscle_inside_the_stretch_is_shorter_than_measured() -> None:
     assert SeriesCompliance(compliance=1e-5).hidden_contraction(800.0) == 0.0
 
 
+def test_a_rope_that_is_pulled_taut_gives_less() -> None:
+    """As stiff again with 250 N, to the jaws and to the muscle alike."""
+    rope = SeriesCompliance(compliance=1e-6, shortening=5e-6, stiffening=0.004)
+    felt = 250.0 * np.log(2)
+    assert rope.widening(0.0, 250.0) == pytest.approx(1e-6 * felt)
+    assert rope.hidden_contraction(250.0) == pytest.approx(5e-6 * felt)
+    assert rope.stiffens
+    assert not SeriesCompliance(compliance=1e-6).stiffens
+
+
 def test_a_length_that_is_told_of_the_muscle_alone_is_its_own() -> None:
     told = SeriesCompliance(shortening=5e-6, measured=Measured.INSIDE)
     assert told.hidden_contraction(800.0) == 0.0

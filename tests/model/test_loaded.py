@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 from scipy.optimize import fsolve
 
 from gripperd.effects.jaw_compliance import JawCompliance
@@ -18,14 +19,24 @@ LINKAGE = Linkage(open_width=0.085, ratio=4.0, spring_preload=240.0, spring_rate
 LENGTH = 0.25
 JAW, SERIES, LOSS = 2e-5, 1e-5, 0.1
 TAKEN, STRETCH = 0.015, 2e-5
-LOADED = LoadedLinkage(
-    LINKAGE,
-    (
-        JawCompliance(compliance=JAW),
-        SeriesCompliance(compliance=SERIES, shortening=STRETCH),
-        LinkageFriction(loss=LOSS, pull_loss=TAKEN),
-    ),
-)
+
+
+def stiffening_by(share: float) -> LoadedLinkage:
+    """Give one whose jaws, and a fifth of it its mount, stiffen. [1/N]."""
+    mount = SeriesCompliance(
+        compliance=SERIES, shortening=STRETCH, stiffening=share / 5
+    )
+    return LoadedLinkage(
+        LINKAGE,
+        (
+            JawCompliance(compliance=JAW, stiffening=share),
+            mount,
+            LinkageFriction(loss=LOSS, pull_loss=TAKEN),
+        ),
+    )
+
+
+LOADED = stiffening_by(0.0)
 
 
 def tension(contraction: Real) -> Real:
@@ -33,31 +44,41 @@ def tension(contraction: Real) -> Real:
     return np.maximum(600.0 - 4000.0 * contraction, 0.0)
 
 
+def stiffer(load: float, stiffening: float) -> float:
+    """Give what a spring is stretched by whose stiffness is ``1 + stiffening load``."""
+    return quad(lambda felt: 1 / (1 + stiffening * felt), 0.0, max(load, 0.0))[0]
+
+
 @pytest.mark.parametrize("direction", Direction)
 @pytest.mark.parametrize("opening", [0.080, 0.060, 0.020])
+@pytest.mark.parametrize("stiffening", [0.0, 0.03])
 def test_pull_grip_and_bending_are_in_balance(
-    opening: float, direction: Direction
+    opening: float, direction: Direction, stiffening: float
 ) -> None:
+    loaded = stiffening_by(stiffening)
+
     def off(unknown: np.ndarray) -> list[float]:
         grip, shortening, pull = unknown
         spring = 240.0 + 1000.0 * shortening
-        bent = JAW * max(grip, 0.0) + SERIES * pull
+        stretched = stiffer(pull, stiffening / 5)
+        bent = JAW * stiffer(grip, stiffening) + SERIES * stretched
         share = 1 - LOSS * direction
         return [
-            600.0 - 4000.0 * (shortening / 0.25 + STRETCH * pull) - pull,
+            600.0 - 4000.0 * (shortening / 0.25 + STRETCH * stretched) - pull,
             (pull - spring) / 4 * share - TAKEN * direction * pull - grip,
             (0.085 - 4 * shortening + bent - opening) * 1e3,
         ]
 
     grip, shortening, pull = fsolve(off, [50.0, 0.01, 500.0], xtol=1e-10)
-    found = LOADED.grip_force(tension, opening, direction, LENGTH)
+    found = loaded.grip_force(tension, opening, direction, LENGTH)
     assert found == pytest.approx(grip, rel=1e-7)
-    contraction = LOADED.contraction(opening, found, direction, LENGTH)
+    contraction = loaded.contraction(opening, found, direction, LENGTH)
     assert contraction == pytest.approx(shortening / 0.25, rel=1e-7)
     spring = LINKAGE.spring_force(contraction, LENGTH)
-    assert LOADED.pull(found, spring, direction) == pytest.approx(pull, rel=1e-7)
-    inside = LOADED.inside(contraction, pull)
-    assert inside == pytest.approx(shortening / 0.25 + STRETCH * pull, rel=1e-7)
+    assert loaded.pull(found, spring, direction) == pytest.approx(pull, rel=1e-7)
+    stretched = STRETCH * stiffer(pull, stiffening / 5)
+    inside = loaded.inside(contraction, pull)
+    assert inside == pytest.approx(shortening / 0.25 + stretched, rel=1e-7)
 
 
 def test_a_spring_too_strong_for_the_muscle_holds_the_jaws_off() -> None:
