@@ -35,11 +35,12 @@ class Leak(InValve):
     .. math:: p = p_1 - l - d\,p_1\,(1 - e^{-t/10\,\mathrm s}),
         \quad p_1 = p_0 - f k\,p_0\,(p_0 / 300\,\mathrm{kPa})^n
 
-    with l what a shut valve has lost and q = p_1 - l, ``dl/dt = k q (q / 300 kPa)^n``
-    while the command stands still and ``dl/dt = -l / r`` while it moves, and t the time
-    since it last moved: told to move, the regulator fills up, or lets out what is left
+    with l what is lost and q = p_1 - l, ``dl/dt = k q (q / 300 kPa)^n`` while the valve
+    is shut, less ``l / r`` while the regulator feeds the leak, and t the time since the
+    command last moved: told to move, the regulator fills up, or lets out what is left
     above a command that falls. So it does if it is taken to keep the pressure while air
-    is lost elsewhere. The last term is a regulator that feeds the leak and droops.
+    is lost elsewhere, as fast or as slow as it is. The last term is a regulator that
+    droops.
 
     A hole lets through what goes with the root of a low pressure, an orifice that is
     choked as much as is there [2]_, a gap that the air creeps through the square of a
@@ -64,8 +65,8 @@ class Leak(InValve):
     """By which the rate goes with the pressure. [-]"""
     droop: float = shape(unit="s", starts=(0.0,), low=0.0, high=30.0)
     """Of the regulator at once, over what it loses per time. [s]"""
-    refill: float = shape(unit="s", starts=(0.05, 2.0), low=0.005, high=30.0)
-    """Time in which a regulator told to move fills up what was lost. [s]"""
+    refill: float = shape(unit="s", starts=(0.05, 2.0, 20.0), low=0.005, high=60.0)
+    """Time in which a regulator fills up what was lost, r. [s]"""
 
     def rest(self) -> Array:
         """Nothing lost of nothing."""

@@ -113,8 +113,9 @@ def leaked(
 ) -> Array:
     """Part of a signal that is lost while it stands still and filled up as it moves.
 
-    What is left sinks as ``dx/dt = -k x^(1 + n)``. No more is missing of a signal that
-    moves than it is above what was left: the rest is let out.
+    What is left sinks as ``dx/dt = -k x^(1 + n)``. It does while it is filled up: as
+    much is missing in the end as is lost in the time constant. No more is missing of a
+    signal that moves than it is above what was left: the rest is let out.
 
     Parameters
     ----------
@@ -208,7 +209,11 @@ def _leaked(
                 left *= np.exp(-np.log1p(bend * gone) / bend)
             lost, rested = value - left, left
         elif still[index] <= 0:
-            lost = min(lost, value - rested) * np.exp(-step[index] / refill)
+            fed = 0.0
+            if left > 0 and rate > 0:
+                fed = min(refill * rate * left ** (1 + bend), left)
+            lost = min(lost, value - rested)
+            lost = fed + (lost - fed) * np.exp(-step[index] / refill)
         lost = max(min(lost, value), 0.0)
         out[index] = lost
     state[0], state[1] = lost, rested

@@ -4,6 +4,7 @@ from math import exp
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from gripperd.effects.leak import Leak
 from gripperd.model import Muscle
@@ -89,7 +90,9 @@ def test_what_a_regulator_keeps_is_not_lost(muscle: Muscle) -> None:
     effect = Leak(rate=1e-3)
     moved = {"still": still, "waiting": waiting, "step": step}
     found = _left(effect, muscle, 3 * [400e3], **moved)
-    assert found == pytest.approx([400e3, 400e3 * exp(-0.03), 400e3], abs=1.0)
+    # But for what it loses in the 50 ms in which it fills up.
+    kept = 400e3 * (1 - 1e-3 * 0.05)
+    assert found == pytest.approx([400e3, 400e3 * exp(-0.03), kept], abs=1.0)
 
 
 def test_no_more_is_lost_than_there_is(muscle: Muscle) -> None:
@@ -106,6 +109,25 @@ def test_a_regulator_that_feeds_the_leak_droops_by_the_share(muscle: Muscle) -> 
         np.full(3, 100e3), track_of(muscle, still=still), effect.rest()
     )
     assert found == pytest.approx([100e3, 100e3 - 5e3 * (1 - exp(-1)), 95e3])
+
+
+@pytest.mark.parametrize("exponent", [-0.5, 0.0, 1.0])
+def test_a_slow_regulator_feeds_a_leak_that_goes_on(
+    muscle: Muscle, exponent: float
+) -> None:
+    """It never shuts: what is lost is made up for with a time constant of 20 s."""
+    step = np.full(600, 0.1)
+    step[0] = 0.0
+    effect = Leak(rate=2e-3, exponent=exponent, refill=20.0)
+    found = _left(effect, muscle, 600 * [450e3], still=0.0 * step, step=step)
+
+    def gained(_: float, lost: Array) -> Array:
+        left = 450e3 - lost
+        return np.asarray(2e-3 * left * (left / 300e3) ** exponent - lost / 20.0)
+
+    told = solve_ivp(gained, (0.0, 60.0), [0.0], t_eval=np.cumsum(step), rtol=1e-9)
+    assert found == pytest.approx(450e3 - told.y[0], abs=20.0)
+    assert found[-1] < 440e3
 
 
 def test_a_vented_line_has_nothing_to_lose(muscle: Muscle) -> None:
@@ -148,7 +170,7 @@ def test_it_lasts_until_the_pressure_has_fallen_as_told(
 
 def test_a_regulator_droops_at_once_by_what_it_feeds(muscle: Muscle) -> None:
     # 1 % a second over 3 s at 300 kPa, and as the square of the pressure.
-    effect = Leak(rate=0.01, exponent=1.0, droop=3.0)
+    effect = Leak(rate=0.01, exponent=1.0, droop=3.0, refill=1e-9)
     pressures = [0.0, 150e3, 300e3, 600e3]
     still = np.zeros(4)
     found = _left(effect, muscle, pressures, still=still)

@@ -28,6 +28,9 @@ STEADY = 0.2
 KEPT = 1 / 2
 """Share of what the slowest leak would lose, below which holds lose nothing: from 400
 to 160 kPa the pace of an orifice, of the root of the pressure, changes by 1.6. [-]"""
+FEEDS, FASTER = 0.0, 1.5
+"""Times the pace of half of the holds that sink from which one is shut: if any is, and
+if the regulator feeds the leak in the others. [-]"""
 REFILLED = 6.0
 """Standard deviations by which readings rise from one window to the next where a cock
 is opened; noise alone does so once in 1e9 windows. [-]"""
@@ -87,13 +90,25 @@ def waiting(courses: Sequence[Course]) -> list[Array]:
 
 def sinking(courses: Sequence[Course]) -> list[Array]:
     """The same if but those that sink may be shut. [s]."""
+    return _shut(courses, FEEDS)
+
+
+def sinking_faster(courses: Sequence[Course]) -> list[Array]:
+    """The same if a regulator feeds the leak in those that sink the slowest. [s]."""
+    return _shut(courses, FASTER)
+
+
+def _shut(courses: Sequence[Course], faster: float) -> list[Array]:
+    """The same in what sinks, and so much faster than half of what does. [s]."""
     held = [list(_holds(course)) for course in courses]
     least = _least([hold for own in held for hold in own])
+    paces = [hold.pace for own in held for hold in own if _sinks(hold, least)]
+    usual = float(np.quantile(paces, 0.5, method="lower")) if paces else 0.0
     found = []
     for course, own in zip(courses, held, strict=True):
         waits = np.zeros(len(course))
         for hold in own:
-            if _sinks(hold, least):
+            if _sinks(hold, least) and hold.pace >= faster * usual:
                 began = _sank_from(course, hold)
                 waits[hold.rows] = np.maximum(course.time[hold.rows] - began, 0.0)
         found.append(waits)

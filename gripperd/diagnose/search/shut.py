@@ -1,4 +1,4 @@
-"""Holds in which a valve is shut: which of two ways to tell them the data support."""
+"""Holds in which a valve is shut: which way to tell them the data support."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,7 +8,7 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.readings.shut import resting, sinking
+from gripperd.diagnose.readings.shut import resting, sinking, sinking_faster
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.resting import DECIDED
@@ -21,8 +21,9 @@ SHUT = "leak"
 def with_valve_shut(problem: Problem, listed: Sequence[Candidate]) -> Problem:
     """Give the problem with the holds shut in which a leak explains most.
 
-    Either every hold may be, or those alone whose pressure sinks. Where some sink and
-    what the others lose does not decide it, a leak fits one way much better.
+    Every hold may be, or those alone whose pressure sinks, or sinks faster than in
+    others, in which a slow regulator feeds the leak. Where some sink and what the
+    others lose does not decide it, a leak fits one way much better.
 
     Parameters
     ----------
@@ -37,7 +38,8 @@ def with_valve_shut(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         return problem
     start = polished(problem, Point(np.zeros(len(problem.constants)))).point
     best, most = problem, _evidence(problem, start, leaks)
-    for waits in ([resting(course) for course in problem.courses], sunk):
+    every = [resting(course) for course in problem.courses]
+    for waits in (every, sunk, sinking_faster(problem.courses)):
         tried = _waiting(problem, waits)
         evidence = _evidence(tried, start, leaks)
         if evidence > most + DECIDED:

@@ -103,3 +103,24 @@ def test_otherwise_it_stays_as_it_was(
     waits = _decided(problem, known)
     for course in problem.courses:
         np.testing.assert_array_equal(waits[course.run], course.waiting)
+
+
+def _fed(level: float, seconds: float) -> Array:
+    """A leak that a regulator makes up for within 20 s, solved as it is told."""
+    pace, time = 2.5e-3, STEP * np.arange(seconds / STEP)
+    share = pace + 1 / 20.0
+    return np.asarray(level * (1 - pace / share * (1 - np.exp(-share * time))))
+
+
+def test_a_hold_that_sinks_as_a_slow_regulator_lets_it_is_not_shut() -> None:
+    problem = _problem({
+        "sweep_1": _sweep(),
+        "fed_1": _fed(370e3, 40.0),
+        "shut": _hold(350e3, 60.0, 2.5e-3),
+        "fed_2": _fed(300e3, 30.0),
+        "sweep_2": _sweep(),
+    })  # fmt: skip
+    waits = _decided(problem, "leak")
+    assert waits["shut"].any()
+    assert not waits["fed_1"].any()
+    assert not waits["fed_2"].any()
