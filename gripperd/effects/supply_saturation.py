@@ -16,6 +16,9 @@ from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
 
+WHOLE = 0.3
+"""Place of a ceiling below which what is lost above it is a part of the line. [-]"""
+
 
 @dataclass(frozen=True, slots=True)
 class SupplySaturation(InValve):
@@ -46,6 +49,11 @@ class SupplySaturation(InValve):
     """Place of the ceiling on the line. [-]"""
     softness: float = shape(unit=None, starts=(0.0, 0.03), low=0.0, high=0.2)
     """How round the corner is, relative to the span. [-]"""
+
+    @property
+    def becomes(self) -> str:
+        """A factor, once nearly all of the line lies above the ceiling."""
+        return "valve_gain" if self.limit < WHOLE else ""
 
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Pressure under the ceiling with the supply at its highest. [Pa]."""

@@ -58,3 +58,10 @@ def test_a_sag_costs_most_at_the_top_of_the_line(muscle: Muscle) -> None:
     track = track_of(muscle, supply_drop=np.array([0.0, 100e3, 100e3]))
     found = effect.along(np.array([500e3, 500e3, 250e3]), track, effect.rest())
     assert found == pytest.approx([500e3, 490e3, 245e3])
+
+
+@pytest.mark.parametrize(("limit", "name"), [(0.1, "valve_gain"), (0.5, "")])
+def test_a_factor_of_nearly_the_whole_line_is_no_ceiling(
+    limit: float, name: str
+) -> None:
+    assert SupplySaturation(share=0.04, limit=limit).becomes == name
