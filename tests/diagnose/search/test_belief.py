@@ -81,9 +81,10 @@ def test_each_must_gain_what_others_could_feign(
         (ForceSensorDrift(rate=0.01), LEAST_SLOW),
         (ChannelDelay(delay=0.05), LEAST_SLOW),
         (TemperatureStiffness(modulus=0.01), LEAST_SLOW),
-        (Fatigue(loss=1e-3), LEAST),
-        (FirstCycle(gain=0.05), LEAST),
-        (Leak(rate=0.01), LEAST),
+        (Fatigue(loss=1e-3), LEAST_SLOW),
+        (FirstCycle(gain=0.05), LEAST_SLOW),
+        (Leak(rate=0.01), LEAST_SLOW),
+        (CoulombFriction(magnitude=20.0), LEAST),
     ],
     ids=lambda value: getattr(value, "name", None),
 )
