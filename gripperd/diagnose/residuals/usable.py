@@ -72,12 +72,21 @@ def usable(course: Course, signal: Signal) -> Mask:
 
 
 def _pressing(course: Course) -> Mask:
-    """Samples in which jaws press, by a load that does not turn round."""
+    """Samples in which jaws press, by a load that does not turn round.
+
+    Joints may rub the way of the travel as well: where that turns round, if it is not
+    that of the load.
+    """
     # Without contact the jaws are moved by the muscle alone and press on nothing.
     good = course.column("grip") > PRESSED * course.hush("grip")
     name = "pressure" if course.is_blind else "force"
     good &= np.isfinite(course.column(name)) & np.isfinite(course.level(name))
-    return good & ~_turning(leaning(course.level(name))) if good.any() else good
+    if not good.any():
+        return good
+    sign = leaning(course.level(name))
+    apart = np.sign(sign) != course.direction
+    turning = _turning(sign) | (apart & _reversals(course))
+    return np.asarray(good & ~turning)
 
 
 def _bridged(course: Course, name: str) -> Mask:

@@ -494,3 +494,15 @@ def test_while_friction_turns_round_the_grip_says_nothing() -> None:
     bad = np.flatnonzero(~usable(replace(course, smooth=smooth), Signal.GRIP))
     # 2.5 N a sample: 29.4 N at the start, 59.4 N after the top, two samples beside.
     assert bad.tolist() == [*range(14), *range(199, 226)]
+
+
+def test_where_the_way_turns_round_but_not_the_load_the_grip_says_nothing() -> None:
+    """Joints may rub as they came, and nobody knows where in a dwell they turn."""
+    force = np.linspace(300.0, 800.0, 401)
+    way = 0.1 + 0.05 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 401)))
+    told = run(grip=force / 4, force=force, contraction=way)
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    smooth = {**course.smooth, "force": Smooth(force, np.gradient(force))}
+    bad = np.flatnonzero(~usable(replace(course, smooth=smooth), Signal.GRIP))
+    turn = int(np.flatnonzero(np.diff(course.direction) < -1)[0]) + 1
+    assert bad[bad > 50].tolist() == list(range(turn, turn + 3))
