@@ -14,6 +14,7 @@ from gripperd.diagnose.residuals.doubt import of_length
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.quiet import driven, moved, repeated, vented
+from gripperd.diagnose.residuals.ranges import ranges
 from gripperd.model.effect import Signal
 
 POINTS = 0.002
@@ -76,20 +77,13 @@ def noises_of(
         if not is_table(problem.courses):
             # A joint with play begins each sweep elsewhere: repeats of one differ.
             told = shortened(moved(*asked)) if signal is Signal.OPENING else quiet
-            noise = coloured(noise, told, WANDERS * _ranges(problem, signal))
+            # What a force hands on to a grip is told apart from it, see below.
+            own = signal is Signal.GRIP
+            most = WANDERS * (full_scale if own else ranges(problem)[signal])
+            noise = coloured(noise, told, most)
             noise = with_drift(noise, quiet, full_scale)
         found[signal] = noise
     return _handed_on(found, problem)
-
-
-def _ranges(problem: Problem, signal: Signal) -> float:
-    """Full scale of a signal; of an opening and the length it follows. [SI]."""
-    linkage, length = problem.model.linkage, problem.model.muscle.rest_length
-    if signal is not Signal.OPENING or linkage is None:
-        return problem.full_scale[signal]
-    furthest = problem.highest.get(Signal.CONTRACTION, 0.0)
-    closed = float(linkage.opening(furthest, length))
-    return problem.full_scale[signal] + linkage.open_width - closed
 
 
 def _share(problem: Problem, index: int) -> float:

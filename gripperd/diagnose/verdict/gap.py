@@ -14,6 +14,7 @@ import numpy as np
 from gripperd.diagnose.residuals.dead_band import UNIFORM
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.ranges import ranges
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -157,19 +158,12 @@ def beside_drift(test: Problem, point: Point) -> dict[Signal, float]:
         The model.
     """
     found: dict[Signal, list[Array]] = {}
+    scales = ranges(test)
     for block, residual in zip(test.blocks, test.judged(point), strict=True):
-        most = DRIFTS * _full_scale(test, block.signal)
+        most = DRIFTS * scales[block.signal]
         steady = residual - np.clip(np.mean(residual), -most, most)
         found.setdefault(block.signal, []).append(steady)
     return {signal: _rms(np.concatenate(pieces)) for signal, pieces in found.items()}
-
-
-def _full_scale(test: Problem, signal: Signal) -> float:
-    """Of a sensor, and of that which its reading is foretold from. [SI]."""
-    scales, linkage = test.full_scale, test.model.linkage
-    if signal is Signal.GRIP and linkage is not None:
-        return scales[signal] + scales.get(Signal.FORCE, 0.0) / linkage.ratio
-    return scales[signal]
 
 
 def by_signal(problem: Problem, point: Point) -> dict[Signal, Array]:

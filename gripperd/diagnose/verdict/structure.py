@@ -19,6 +19,7 @@ from scipy.special import chdtrc
 
 from gripperd.diagnose.noise.ripple import ripple
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.ranges import ranges
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -42,7 +43,8 @@ class Structure:
     p_value: float
     """Chance of such an excess in noise. [-]"""
     size: float
-    """Root mean square of the excess, of full scale. [-]"""
+    """Root mean square of the excess, of full scale, or what is slow of the ranges of
+    the sensors behind it. [-]"""
     share: float
     """Largest single component of the sum: a line rather than a bend. [-]"""
 
@@ -136,9 +138,7 @@ def _size(problem: Problem, signal: Signal, excess: float) -> float:
         if block.signal is signal
     )
     loud = problem.noises[signal].slow_variance
-    return (
-        float((max(excess, 0.0) / samples * loud) ** 0.5) / problem.full_scale[signal]
-    )
+    return float((max(excess, 0.0) / samples * loud) ** 0.5) / ranges(problem)[signal]
 
 
 def _views(

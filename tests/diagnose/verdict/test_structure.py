@@ -9,11 +9,12 @@ from scipy.stats import kstest
 
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.structure import Structure, chi_square_tail, structures
 from gripperd.diagnose.verdict.structure import _cosines as cosines
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
-from tests.diagnose.small import STEP
+from tests.diagnose.small import LINKAGE, MODEL, STEP, recording, with_jaws
 from tests.diagnose.sweep import noise
 
 STD = 3.0
@@ -117,6 +118,24 @@ def test_views_come_most_significant_first(plain: Problem) -> None:
 def test_its_size_is_that_of_what_is_there(plain: Problem) -> None:
     found = _first(plain, lambda p, h, d: np.full_like(p, 6.0))
     assert found.size * plain.full_scale[Signal.FORCE] == pytest.approx(6.0, rel=0.1)
+
+
+def test_that_of_an_opening_counts_beside_the_length_that_it_follows() -> None:
+    """A length that is off by as much of its range as the opening of its own."""
+    model = replace(MODEL, linkage=LINKAGE)
+    problem = problem_of(with_jaws(recording()), model, {})
+    noises = {**problem.noises, Signal.OPENING: Noise(2e-4, 0.0)}
+    residuals = [
+        np.full(one.size, 1e-3 if block.signal is Signal.OPENING else 0.0)
+        for block, one in zip(problem.blocks, problem.measured, strict=True)
+    ]
+    found = structures(replace(problem, noises=noises), residuals)
+    (seen,) = (
+        one for one in found if one.signal is Signal.OPENING and one.along == "time"
+    )
+    furthest = max(float(np.max(one.level("contraction"))) for one in problem.courses)
+    both = problem.full_scale[Signal.OPENING] + 4 * 0.25 * furthest
+    assert seen.size * both == pytest.approx(1e-3, rel=0.1)
 
 
 def test_the_excess_is_what_noise_has_not(plain: Problem) -> None:
