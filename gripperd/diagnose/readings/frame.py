@@ -20,6 +20,9 @@ CERTAIN = 5.0
 may as well, by less. [-]"""
 BORNE_OUT = 3.0
 """The same without any one sweep, in which it may be the way there. [-]"""
+ARRIVED = 2.0
+"""Time in which a carriage has come to the length that it holds: until then its way
+there is no give. [s]"""
 LOUD = 2.0
 """Variance about that from which it is no spring but a clearance, say, in units of the
 noise: a reading so quiet is not mended by a straight line. [-]"""
@@ -37,23 +40,30 @@ def with_yielding_frame(courses: Sequence[Course], noise: Noise) -> list[Course]
     """
     held = [index for index, course in enumerate(courses) if _is_held(course)]
     pulls = [_about_mean(courses[index].level("force")) for index in held]
-    ways = [_about_mean(courses[index].column("contraction")) for index in held]
-    power = np.array([float(pull @ pull) for pull in pulls])
-    gone = np.array([
-        float(pull @ np.nan_to_num(way)) for pull, way in zip(pulls, ways, strict=True)
-    ])  # fmt: skip
+    pairs = [_there(courses[index]) for index in held]
+    power = np.array([float(pull @ pull) for pull, _ in pairs])
+    gone = np.array([float(pull @ np.nan_to_num(way)) for pull, way in pairs])
     others, left = (column.sum() - column for column in (gone, power))
     certain = gone.sum() > CERTAIN * (noise.slow_variance * power.sum()) ** 0.5
     if not certain or np.any(others <= BORNE_OUT * (noise.slow_variance * left) ** 0.5):
         return list(courses)
     compliance = float(gone.sum() / power.sum())
-    rest = [way - compliance * pull for way, pull in zip(ways, pulls, strict=True)]
+    rest = [way - compliance * pull for pull, way in pairs]
     if np.nanvar(np.concatenate(rest)) > LOUD * noise.std**2:
         return list(courses)
     found = [_filled(course, compliance) for course in courses]
     for index, pull in zip(held, pulls, strict=True):
         found[index] = _yielding(courses[index], compliance * pull, compliance)
     return found
+
+
+def _there(course: Course) -> tuple[Array, Array]:
+    """Pull and length about their means, once the length has been reached."""
+    there = course.time - course.time[0] > ARRIVED
+    if not there.any():
+        return np.empty(0), np.empty(0)
+    pull, way = course.level("force")[there], course.column("contraction")[there]
+    return _about_mean(pull), _about_mean(way)
 
 
 def _filled(course: Course, compliance: float) -> Course:
