@@ -161,7 +161,7 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         inside, _ = apart(parts)
         told = without_refuted(parts, inside, found, selection.contest, listed)
         best = completed(parts, inside, found, told, listed)
-        recording = remarked(recording, told, best)
+        recording = remarked(recording, selection.contest, best)
         borne_out = replace(selection, contest=best)
         return _judged(recording, borne_out, untested, seed)
 

@@ -20,7 +20,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import least
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import Contest, contest
+from gripperd.diagnose.search.rivalry import Contest, Place, contest, without_each
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
 
 TELLING = 20.0
@@ -40,8 +40,9 @@ def without_refuted(
 ) -> Contest:
     """Tell no more what was left out speaks against, as long as something else is told.
 
-    What stands beside a name that is wrong need not be wrong itself: it is fitted and
-    challenged anew.
+    That is what fits as well in its place, if nothing speaks against it: the sweeps
+    left out have told the two apart. Else what stands beside a name that is wrong need
+    not be wrong itself: it is fitted and challenged anew.
 
     Parameters
     ----------
@@ -50,21 +51,40 @@ def without_refuted(
     listed
         What could be missing.
     """
-    while len(best.best.candidates) > 1:
-        names = refuted(parts, inside, found, best)
+    while names := refuted(parts, inside, found, best):
+        if other := _instead(parts, inside, found, best, names):
+            return other
+        if len(best.best.candidates) == 1:
+            break
         without = [
             place.without
             for name, place in zip(best.best.names, best.places, strict=True)
             if name in names
         ]
-        if not without:
-            break
         rest = max(without, key=lambda one: one.evidence)
         # Beside what is gone it may have been believed for less than it needs alone.
         if rest.evidence - found.null.evidence <= least(found.problem, rest.candidates):
             rest = found.null
         best = contest(replace(found, best=rest), listed)
     return best
+
+
+def _instead(
+    parts: Split, inside: Problem, found: Found, best: Contest, names: tuple[str, ...]
+) -> Contest | None:
+    """Give the likeliest that fits as well and that what was left out bears out."""
+    rivals = [
+        rival
+        for name, place in zip(best.best.names, best.places, strict=True)
+        if name in names
+        for rival in place.rivals
+    ]
+    for rival in sorted(rivals, key=lambda one: -one.evidence):
+        bare = without_each(found.problem, rival)
+        other = replace(best, best=rival, places=tuple(map(Place, bare)))
+        if not refuted(parts, inside, found, other):
+            return other
+    return None
 
 
 def refuted(

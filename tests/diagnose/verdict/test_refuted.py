@@ -123,3 +123,31 @@ def test_far_above_the_noise_no_constant_is_refuted(
     parts = split(blank)
     names = refuted(parts, parts.test, found, replace(blank_told, best=bore))
     assert bool(names) is (inflated == 1.0)
+
+
+def _only_friction(told: Diagnosis, *alike: Rival) -> Contest:
+    """A friction of 40 N that is told, which is not hidden, and what fits as well."""
+    bare = told.contest.places[0].without
+    point = bare.fit.point.with_effect(CoulombFriction(magnitude=40.0))
+    rubs = Candidate("coulomb_friction", CoulombFriction(magnitude=40.0))
+    wrong = Rival((rubs,), replace(bare.fit, point=point))
+    return Contest(wrong, (Place(bare, alike),))
+
+
+def test_of_two_that_fit_as_well_the_one_that_is_borne_out_is_told(
+    told: Diagnosis,
+) -> None:
+    parts, right = told.split, told.contest.best
+    wrong = _only_friction(told, right)
+    found = without_refuted(parts, parts.test, told.found, wrong, ())
+    assert found.best is right
+    assert found.equivalents == ((),)
+
+
+def test_where_both_are_refuted_neither_takes_the_place_of_the_other(
+    told: Diagnosis,
+) -> None:
+    parts, wrong = told.split, _only_friction(told)
+    both = _only_friction(told, wrong.best)
+    found = without_refuted(parts, parts.test, told.found, both, ())
+    assert found is both
