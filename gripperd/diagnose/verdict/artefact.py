@@ -20,11 +20,13 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import SEEN, acts_on, size_of
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.model.effect import ROOM, Signal
-from gripperd.model.kinds import InMuscle, InSensor
+from gripperd.model.kinds import InMuscle, InSensor, InValve
 from gripperd.model.parameter import amplitude
 from gripperd.model.track import Array, Track
 
 FORCE: frozenset[str] = frozenset({"force"})
+VENTED = 0.01
+"""Share of the line below which a regulator vents, and keeps nothing. [-]"""
 
 
 class _OfCell(InSensor, ABC):
@@ -121,14 +123,48 @@ class Snap(InMuscle):
         return f"{way} by {abs(self.loss):.1%} of the ideal pull {at}"
 
 
-Artefact: TypeAlias = Jump | WarmCell | Snap
+@dataclass(frozen=True, slots=True)
+class SetPoint(InValve):
+    """What a regulator keeps goes with its supply, by as much at any current.
+
+    A poppet that the supply presses on is a balance of areas, and no ceiling [1]_.
+
+    References
+    ----------
+    .. [1] ISO 6953-2, "Compressed air pressure regulators and filter-regulators: test
+           methods": pressure regulation is how the outlet goes with the inlet.
+    """
+
+    name: ClassVar[str] = "set_point"
+    needs: ClassVar[frozenset[str]] = frozenset({"pressure", "current", "supply"})
+    shows: ClassVar[str] = "the pressure goes with the supply, alike at any current"
+    confused_with: ClassVar[tuple[str, ...]] = ("supply_saturation",)
+    remedy: ClassVar[str] = "put a first regulator before it"
+
+    rate: float = amplitude(unit=None, scale=0.1, low=-2.0, high=2.0)
+    """Pressure lost per loss of supply. [Pa/Pa]"""
+    offset: float = amplitude(unit="kPa", scale=5e3, low=-1e5, high=1e5)
+    """Pressure on top at the highest supply, which it was not set at. [Pa]"""
+
+    def along(self, value: Array, track: Track, memory: Array) -> Array:
+        """Pressure that is kept; a vented muscle has none to lose. [Pa]."""
+        low, high = track.span
+        kept = value > low + VENTED * (high - low)
+        return value + (self.offset - self.rate * track.supply_drop) * kept
+
+    def told(self, _start: float) -> str:
+        """Say what it does."""
+        return f"goes with the supply by {self.rate:+.2f}, alike at any current"
+
+
+Artefact: TypeAlias = Jump | WarmCell | Snap | SetPoint
 
 
 def artefact(found: Found, best: Contest) -> Artefact | None:
     """Give the artefact that explains more than the best, if one does.
 
-    One that is no larger than sensors drift is a drift. Where no name acts on the
-    force, nothing could be taken for one.
+    One that is no larger than sensors drift is a drift. Where no name acts where it
+    does, nothing could be taken for one.
 
     Parameters
     ----------
@@ -136,9 +172,12 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
         The search and its outcome.
     """
     problem, named = found.problem, best.best.candidates
-    if not any(Signal.FORCE in acts_on(problem, one) for one in named):
+    acted = {signal for one in named for signal in acts_on(problem, one)}
+    listed = [
+        Candidate(one.name, one) for one in _artefacts(problem) if one.signal in acted
+    ]
+    if not listed:
         return None
-    listed = [Candidate(one.name, one) for one in _artefacts(problem)]
     around = design(problem, found.null.fit.point, listed)
     gains = {one: around.fit(one).evidence for one in around.members}
     if not gains:
@@ -150,12 +189,14 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
         return None
     (seen,) = told.fit.point.effects
     assert isinstance(seen, Artefact)
-    return seen if size_of(problem, told, [seen.name], [Signal.FORCE]) > SEEN else None
+    return seen if size_of(problem, told, [seen.name], [seen.signal]) > SEEN else None
 
 
 def _artefacts(problem: Problem) -> Iterator[Artefact]:
     if any(np.isfinite(c.level("temperature")).any() for c in problem.courses):
         yield WarmCell(rate=0.5)
+    if any(course.supply_drop.any() for course in problem.courses):
+        yield SetPoint(rate=0.1, offset=5e3)
     in_turn = sorted(problem.courses, key=lambda course: float(course.time[0]))
     over = [float(course.cycle[0]) for course in in_turn]
     once = next((count for count in over if count > 0), np.inf)

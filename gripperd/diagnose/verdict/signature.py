@@ -45,7 +45,8 @@ def signature(
             )
     if artefact:
         # By the clock of the file, as everything else that is told of it.
-        words.append(f"force: {artefact.told(problem.courses[0].start)}")
+        told = artefact.told(problem.courses[0].start)
+        words.append(f"{artefact.signal.value}: {told}")
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)

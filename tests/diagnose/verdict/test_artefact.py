@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -9,14 +10,23 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.rivalry import contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
-from gripperd.diagnose.verdict.artefact import Artefact, Jump, Snap, WarmCell, artefact
+from gripperd.diagnose.verdict.artefact import (
+    Artefact,
+    Jump,
+    SetPoint,
+    Snap,
+    WarmCell,
+    artefact,
+)
 from gripperd.effects.fatigue import Fatigue
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.temperature_stiffness import TemperatureStiffness
 from gripperd.model.effect import Effect
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
+    REGULATOR,
     Hidden,
     Moment,
     altered,
@@ -149,3 +159,43 @@ def test_a_stiffness_that_goes_with_the_temperature_is_no_zero() -> None:
     told = _warmed(recording(), lambda moment: -20.0 * moment.contraction)
     named = TemperatureStiffness(modulus=0.005)
     assert _seen(told, named, "zero.contraction")[1] is None
+
+
+def _supplied(told: Recording, share: Callable[[Array], Array]) -> Recording:
+    """The same with a supply that comes and goes by 80 kPa.
+
+    The more of it is lost the more current is asked for, so that the regulator keeps
+    the pressure: for each pascal as many as are told at a pressure.
+    """
+    runs = []
+    for place, run in enumerate(told.runs):
+        drop = 40e3 * (1 + np.sin(run.columns["time"] / 9.0 + place))
+        asked = moments()[run.name].pressure
+        current = np.asarray(REGULATOR.current(asked + share(asked) * drop))
+        columns = {**run.columns, "current": current, "supply": 700e3 - drop}
+        runs.append(Run(run.name, columns, run.kind))
+    return Recording(told.name, told.digest, tuple(runs))
+
+
+def _alike(asked: Array) -> Array:
+    return np.where(asked > 5e3, 0.3, 0.0)
+
+
+def _at_the_top(asked: Array) -> Array:
+    return np.asarray(0.3 * asked / 500e3)
+
+
+SAGS = SupplySaturation(sag=0.1)
+
+
+def test_a_set_point_that_goes_with_the_supply_is_no_ceiling() -> None:
+    told = _supplied(recording(), _alike)
+    _, seen = _seen(told, SAGS, "valve.pressure_high", "valve.pressure_low")
+    assert isinstance(seen, SetPoint)
+    assert seen.rate == pytest.approx(0.3, abs=0.03)
+    assert seen.told(0.0).startswith("goes with the supply by +0.3")
+
+
+def test_a_top_that_sags_with_the_supply_is_no_set_point() -> None:
+    told = _supplied(recording(), _at_the_top)
+    assert _seen(told, SAGS, "valve.pressure_high", "valve.pressure_low")[1] is None
