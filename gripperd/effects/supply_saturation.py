@@ -16,8 +16,9 @@ from gripperd.model.parameter import amplitude, shape
 from gripperd.model.real import Real, positive_part
 from gripperd.model.track import Array, Track
 
-WHOLE = 0.3
-"""Place of a ceiling below which what is lost above it is a part of the line. [-]"""
+WHOLE, PART = 0.3, 0.5
+"""Place of a ceiling below which what is lost above it is a part of the line, and the
+share of it up to which that is a part. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +53,9 @@ class SupplySaturation(InValve):
 
     @property
     def becomes(self) -> str:
-        """A factor, once nearly all of the line lies above the ceiling."""
-        return "valve_gain" if self.limit < WHOLE else ""
+        """A factor, once a part of nearly all of the line is lost at any supply."""
+        is_factor = self.limit < WHOLE and self.share < PART and self.sag == 0
+        return "valve_gain" if is_factor else ""
 
     def settled(self, pressure: Real, span: tuple[float, float]) -> Real:
         """Pressure under the ceiling with the supply at its highest. [Pa]."""

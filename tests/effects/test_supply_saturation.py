@@ -60,8 +60,22 @@ def test_a_sag_costs_most_at_the_top_of_the_line(muscle: Muscle) -> None:
     assert found == pytest.approx([500e3, 490e3, 245e3])
 
 
-@pytest.mark.parametrize(("limit", "name"), [(0.1, "valve_gain"), (0.5, "")])
+@pytest.mark.parametrize(
+    ("effect", "name"),
+    [
+        pytest.param(
+            SupplySaturation(share=0.04, limit=0.1), "valve_gain", id="factor"
+        ),
+        pytest.param(
+            SupplySaturation(share=0.04, limit=0.5), "", id="of half the line"
+        ),
+        pytest.param(SupplySaturation(share=1.0, limit=0.1), "", id="it clips"),
+        pytest.param(
+            SupplySaturation(share=0.04, limit=0.1, sag=0.1), "", id="it sags as well"
+        ),
+    ],
+)
 def test_a_factor_of_nearly_the_whole_line_is_no_ceiling(
-    limit: float, name: str
+    effect: SupplySaturation, name: str
 ) -> None:
-    assert SupplySaturation(share=0.04, limit=limit).becomes == name
+    assert effect.becomes == name
