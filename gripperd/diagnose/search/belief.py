@@ -14,9 +14,9 @@ recordings of six rigs that lacked nothing the most was 10, but for delays that 
 short to be seen. [nat]"""
 LEAST_SLOW = 20.0
 """The same of what warmth or the clock tells, as they do a drift, and of a sensor that
-drifts or is late: odds of 5e8. In 192 recordings of twelve rigs that lacked
-nothing, half of which drift by 0.2 % of full scale, a drift gained 22; in one of a rig
-more a first inflation gained 18. [nat]"""
+drifts or is late: odds of 5e8. In 192 recordings of twelve rigs that lacked nothing,
+half of which drift by 0.2 % of full scale, a drift gained 22; in one of a rig more a
+first inflation gained 18. [nat]"""
 LEAST_BESIDE = 20.0
 """The same beside another effect, whose formula is ours. [nat]"""
 LEAST_PLAIN = 8.0

@@ -154,7 +154,8 @@ class SetPoint(InValve):
 
     def told(self, _start: float) -> str:
         """Say what it does."""
-        return f"goes with the supply by {self.rate:+.2f}, alike at any current"
+        rate = f"{self.rate:+.2f} kPa for each kPa"
+        return f"goes with the supply by {rate}, alike at any current"
 
 
 Artefact: TypeAlias = Jump | WarmCell | Snap | SetPoint

@@ -193,7 +193,10 @@ def test_a_set_point_that_goes_with_the_supply_is_no_ceiling() -> None:
     _, seen = _seen(told, SAGS, "valve.pressure_high", "valve.pressure_low")
     assert isinstance(seen, SetPoint)
     assert seen.rate == pytest.approx(0.3, abs=0.03)
-    assert seen.told(0.0).startswith("goes with the supply by +0.3")
+    told_as = replace(seen, rate=0.31).told(0.0)
+    assert told_as == (
+        "goes with the supply by +0.31 kPa for each kPa, alike at any current"
+    )
 
 
 def test_a_top_that_sags_with_the_supply_is_no_set_point() -> None:
