@@ -12,14 +12,16 @@ from typing import ClassVar, TypeAlias
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import Candidate, forms
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.rival import larger
+from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import SEEN, acts_on, size_of
 from gripperd.diagnose.search.rivalry import Contest
-from gripperd.model.effect import ROOM, Signal
+from gripperd.diagnose.verdict.ageing import Ageing
+from gripperd.model.effect import ROOM, Effect, Signal
 from gripperd.model.kinds import InMuscle, InSensor, InValve
 from gripperd.model.parameter import amplitude
 from gripperd.model.track import Array, Track
@@ -158,7 +160,7 @@ class SetPoint(InValve):
         return f"goes with the supply by {rate}, alike at any current"
 
 
-Artefact: TypeAlias = Jump | WarmCell | Snap | SetPoint
+Artefact: TypeAlias = Jump | WarmCell | Snap | SetPoint | Ageing
 
 
 def artefact(found: Found, best: Contest) -> Artefact | None:
@@ -193,11 +195,14 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
     return seen if size_of(problem, told, [seen.name], [seen.signal]) > SEEN else None
 
 
-def _artefacts(problem: Problem) -> Iterator[Artefact]:
+def _artefacts(problem: Problem) -> Iterator[Effect]:
     if any(np.isfinite(c.level("temperature")).any() for c in problem.courses):
         yield WarmCell(rate=0.5)
     if any(course.supply_drop.any() for course in problem.courses):
         yield SetPoint(rate=0.1, offset=5e3)
+    travels = any(course.direction.any() for course in problem.courses)
+    if travels and not is_table(problem.courses):
+        yield from forms(Ageing)
     in_turn = sorted(problem.courses, key=lambda course: float(course.time[0]))
     over = [float(course.cycle[0]) for course in in_turn]
     once = next((count for count in over if count > 0), np.inf)
