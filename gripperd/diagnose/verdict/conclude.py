@@ -12,16 +12,13 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.gap import REACHED, Gap
-from gripperd.diagnose.verdict.structure import TIME, Structure, loudness, structures
+from gripperd.diagnose.verdict.structure import Structure, loudness, structures
 from gripperd.model.effect import Signal
 
 STRUCTURED = 1e-4
 """Chance below which what is left is no noise, over all ways of looking at it."""
 VISIBLE = 0.0015
 """Structure below this share of full scale is what common sensors drift. [-]"""
-WANDERS = 0.003
-"""The same of what goes with time alone. Sound sensors drift by 0.2 % (sd), and noise
-of 0.6 % that lasts for seconds is seen in their means as well. [-]"""
 LOUD = 2.0
 """Mean square of what is left, in whatever order, from which it is no noise: that of a
 sensor is known to a tenth. [-]"""
@@ -181,5 +178,5 @@ def _remaining(found: Sequence[Structure]) -> list[Structure]:
         one
         for one in found
         if one.p_value * len(found) < STRUCTURED
-        and one.size > (WANDERS if one.along == TIME else VISIBLE)
+        and one.size > max(VISIBLE, one.wanders)
     ]

@@ -29,6 +29,9 @@ TIME = "time"
 """Way of looking at what nothing else is behind."""
 SLOW = 12
 """Slow components looked at along time, in each sweep."""
+WANDERS = 0.003
+"""How far readings wander in a sweep, of the ranges of sensors: sound ones drift by
+0.2 % (sd), and noise of 0.6 % that lasts for seconds is seen in their means too. [-]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +50,9 @@ class Structure:
     the sensors behind it. [-]"""
     share: float
     """Largest single component of the sum: a line rather than a bend. [-]"""
+    wanders: float = 0.0
+    """What of the size are sensors that wander. In one sweep, all goes with time; each
+    of several wanders another way. [-]"""
 
 
 def structures(problem: Problem, residuals: Sequence[Array]) -> tuple[Structure, ...]:
@@ -109,7 +115,12 @@ def _structure(
         chi_square_tail(total, count),
         _size(problem, signal, total - count),
         float(squares.max()) / total if total > 0 else 0.0,
+        WANDERS if along == TIME else WANDERS / _sweeps(problem, signal) ** 0.5,
     )
+
+
+def _sweeps(problem: Problem, signal: Signal) -> int:
+    return sum(block.signal is signal for block in problem.blocks)
 
 
 def _ripple(problem: Problem, white: Sequence[Array], signal: Signal) -> Structure:

@@ -178,17 +178,17 @@ def test_what_happens_in_a_sweep_that_took_no_part_alone_is_unexplained(
 
 
 @pytest.mark.parametrize(
-    ("along", "size", "remains"),
+    ("wanders", "size", "remains"),
     [
-        ("time", 0.0025, False),
-        ("time", 0.0035, True),
-        ("pressure", 0.0025, True),
-        ("pressure", 0.001, False),
-        ("time, at 0.8 Hz", 0.0025, True),
+        (0.003, 0.0025, False),
+        (0.003, 0.0035, True),
+        (0.001, 0.0025, True),
+        (0.001, 0.0012, False),
+        (0.0, 0.001, False),
     ],
 )
-def test_what_wanders_with_time_alone_must_be_larger_than_sensors_do(
-    along: str, size: float, *, remains: bool
+def test_structure_must_be_larger_than_what_sensors_wander(
+    wanders: float, size: float, *, remains: bool
 ) -> None:
-    left = Structure(Signal.FORCE, along, 300.0, 1e-30, size, 0.1)
+    left = Structure(Signal.FORCE, "pressure", 300.0, 1e-30, size, 0.1, wanders)
     assert bool(remaining([left])) is remains

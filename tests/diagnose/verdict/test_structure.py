@@ -184,3 +184,23 @@ def test_two_degrees_of_freedom_have_an_exponential_tail(total: float) -> None:
 
 def test_nothing_looked_at_proves_nothing() -> None:
     assert chi_square_tail(0.0, 0) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("along", "sweeps", "wanders"),
+    [
+        ("time", 1, 0.003),
+        ("pressure", 1, 0.003),
+        ("time", 4, 0.003),
+        ("pressure", 4, 0.0015),
+        ("time, at 1.0 Hz", 1, 0.0),
+    ],
+)
+def test_in_one_sweep_all_goes_with_time(
+    plain: Problem, along: str, sweeps: int, wanders: float
+) -> None:
+    """The mean of four that wander on their own is half as far off as one."""
+    few = replace(plain, courses=plain.courses[1 : 1 + sweeps])
+    waves = [np.sin(2 * np.pi * 0.25 * t / STEP) for t in few.times]
+    found = {one.along: one for one in structures(few, waves)}
+    assert found[along].wanders == pytest.approx(wanders)
