@@ -4,7 +4,7 @@ At rest the friction of eq. (7) is set-valued, and a rig may have come to rest e
 way. A wrong sign would look like an effect.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -91,11 +91,15 @@ def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
             yield replace(problem, model=replace(model, winding=winding))
 
 
-def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
-    """Give the problem with another sign at rest, if it fits better beside the found.
+def with_sign_beside(
+    found: Found, listed: Sequence[Candidate], searched: Callable[[Problem], Found]
+) -> Found:
+    """Give the search with another sign at rest, if it fits better beside the found.
 
     What nobody knew of when the sign was chosen may have stood behind it: a cell that
-    is late opens the loop of a friction that turns with the pressure.
+    is late opens the loop of a friction that turns with the pressure. With the wrong
+    sign more names than are true may fit as well: where some depend on it, the next
+    best is searched anew, and taken if fewer explain as much.
 
     Parameters
     ----------
@@ -103,17 +107,39 @@ def with_sign_beside(found: Found, listed: Sequence[Candidate]) -> Problem:
         The search, with the problem as it was searched.
     listed
         What could be missing.
+    searched
+        Searches a problem as that was.
     """
     problem, here = found.problem, found.best
     if not here.candidates or not rests(problem):
-        return problem
+        return found
     best, most = problem, here.evidence
+    near, nearest, likely = problem, -np.inf, -np.inf
     for tried in _others(problem, rubs=True):
-        fits = _beside(replace(found, problem=tried), listed)
+        fits = list(_beside(replace(found, problem=tried), listed))
         told = max(one.evidence for one in fits)
+        # Beside what stands in for it every sign is alike.
+        fewest = min(len(one.candidates) for one in fits)
+        bare = max(one.evidence for one in fits if len(one.candidates) == fewest)
+        if bare > nearest:
+            near, nearest, likely = tried, bare, told
         if told > most + _lead(best, tried):
             best, most = tried, told
-    return best
+    if best is not problem:
+        return searched(best)
+    depends = not {*here.names}.isdisjoint((*TELLING, BRAID))
+    if not depends or likely < here.evidence - DECIDED:
+        return found
+    other = searched(near)
+    return other if _is_simpler(other, found) else found
+
+
+def _is_simpler(other: Found, found: Found) -> bool:
+    """Whether a search explains as much with fewer names."""
+    if other.problem.is_inflated or found.problem.is_inflated:
+        return False
+    fewer = len(other.best.candidates) < len(found.best.candidates)
+    return fewer and other.best.evidence >= found.best.evidence
 
 
 def _beside(found: Found, listed: Sequence[Candidate]) -> Iterator[Rival]:

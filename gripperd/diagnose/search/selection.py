@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.holdout import Split
+from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.reading import as_read
@@ -60,11 +60,14 @@ def selected(
     progress("friction at rest, and valves", 0.2)
     train = as_read(parts.train, listed)
     progress("candidates, singles and pairs", 0.3)
-    found = search(train, listed, rng)
-    for again in (partial(with_sign_beside, listed=listed), with_vented_zero):
-        if (other := again(found)) is not found.problem:
-            train = replace(train, model=other.model)
-            found = search(train, listed, rng)
+
+    def searched(problem: Problem) -> Found:
+        return search(replace(train, model=problem.model), listed, rng)
+
+    found = with_sign_beside(searched(train), listed, searched)
+    if (other := with_vented_zero(found)) is not found.problem:
+        found = searched(other)
+    train = replace(train, model=found.problem.model)
     test = replace(
         parts.test, model=train.model, courses=train.courses, band=train.band
     )

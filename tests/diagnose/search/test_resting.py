@@ -6,7 +6,7 @@ import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate, candidates
 from gripperd.diagnose.fit.rival import Rival
-from gripperd.diagnose.readings.recording import Recording
+from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search import resting
@@ -16,6 +16,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -38,7 +39,10 @@ LIBRARY = {name: EFFECTS[name] for name in ("coulomb_friction", "force_sensor_bi
 
 
 def _beside(problem: Problem, *found: Candidate) -> Problem:
-    return with_sign_beside(ended(problem, fitted(problem, *found)), found)
+    def searched(other: Problem) -> Found:
+        return ended(other, fitted(other, *found))
+
+    return with_sign_beside(searched(problem), found, searched).problem
 
 
 def _decided(told: Recording) -> tuple[Problem, Problem]:
@@ -189,6 +193,61 @@ def test_a_braid_that_rubs_otherwise_must_not_hide_the_sign(
 
     monkeypatch.setattr(resting, "additions", more)
     assert _beside(problem, rub, wrong).model.at_rest is sign
+
+
+RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
+BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=20.0))
+LATE = Candidate("channel_delay", ChannelDelay(delay=0.3, channel=Signal.FORCE))
+
+
+@pytest.mark.parametrize(
+    ("first", "then", "lead", "is_taken"),
+    [
+        pytest.param((RUB, BIAS), (RUB,), 0.1, True, id="fewer explain as much"),
+        pytest.param((RUB, BIAS), (RUB,), -0.1, False, id="fewer explain less"),
+        pytest.param((RUB,), (BIAS,), 0.1, False, id="no fewer"),
+    ],
+)
+def test_another_sign_that_fits_as_well_is_taken_if_fewer_names_do(
+    first: tuple[Candidate, ...],
+    then: tuple[Candidate, ...],
+    lead: float,
+    *,
+    is_taken: bool,
+) -> None:
+    """Where pressures only rise no sign is better than another."""
+    problem = _rising()
+    here = fitted(problem, *first)
+
+    def searched(other: Problem) -> Found:
+        told = fitted(other, *then)
+        cost = told.fit.cost + 2 * (told.evidence - here.evidence - lead)
+        return ended(other, replace(told, fit=replace(told.fit, cost=cost)))
+
+    found = ended(problem, here)
+    told = with_sign_beside(found, first, searched)
+    assert (told is not found) is is_taken
+    if is_taken:
+        assert told.problem.model.at_rest is not problem.model.at_rest
+
+
+def test_what_no_sign_has_a_part_in_is_not_searched_again() -> None:
+    problem = _rising()
+    found = ended(problem, fitted(problem, LATE))
+    assert with_sign_beside(found, (LATE,), _never) is found
+
+
+def _rising() -> Problem:
+    rising = recording(rubbing(25.0))
+    runs = (
+        Run(run.name, {key: values[:50] for key, values in run.columns.items()})
+        for run in rising.runs
+    )
+    return problem_of(Recording("rising", "0", tuple(runs)), MODEL, {})
+
+
+def _never(_: Problem) -> Found:
+    raise AssertionError
 
 
 def _sliding(moment: Moment) -> Array:
