@@ -78,7 +78,7 @@ def worth(
     inflated = problem.inflation(signals) > 1
     if not inflated and gain <= LEAST_MORE:
         return False
-    if _change(problem, best.fit.point, larger.fit.point) < SEEN:
+    if not _is_visible(problem, best, larger, new):
         return False
     further = best.fit.cost - larger.fit.cost
     # Constants tie the stages together: it may close elsewhere what it sets free here.
@@ -95,6 +95,16 @@ def worth(
     left = sum(best.fit.misfits[s] for s in signals)
     takes_much = _taken(problem, best, larger) > MUCH * left
     return (paid or takes_much) and bears_out(problem, best.fit, larger.fit, signals)
+
+
+def _is_visible(
+    problem: Problem, best: Rival, larger: Rival, new: Sequence[Candidate]
+) -> bool:
+    """Whether readings see what is new: beside the best, or each where it is gone."""
+    if {*best.names} <= {*larger.names}:
+        return _change(problem, best.fit.point, larger.fit.point) >= SEEN
+    sizes = (size_of(problem, larger, [o.name], problem.signals) for o in new)
+    return all(size >= SEEN for size in sizes)
 
 
 def is_seen(problem: Problem, best: Rival, larger: Rival) -> bool:

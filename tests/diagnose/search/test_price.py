@@ -10,14 +10,17 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search import price
-from gripperd.diagnose.search.price import acts_on, worth
+from gripperd.diagnose.search.price import LEAST_MORE, acts_on, worth
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
+from gripperd.effects.force_sensor_gain import ForceSensorGain
 from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.pressure_sensor_bias import PressureSensorBias
+from gripperd.effects.pressure_sensor_gain import PressureSensorGain
 from gripperd.effects.threshold_pressure import ThresholdPressure
+from gripperd.effects.valve_gain import ValveGain
 from gripperd.effects.valve_offset import ValveOffset
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -33,6 +36,7 @@ from tests.diagnose.small import (
     restless,
     rubbing,
     rubbing_more,
+    textbook,
     threshold,
     with_grip,
     without,
@@ -60,6 +64,9 @@ BIAS = Candidate("force_sensor_bias", ForceSensorBias(bias=5.0))
 DRIFT = Candidate("force_sensor_drift", ForceSensorDrift(rate=0.01))
 GROWS = Candidate("pressure_friction", PressureFriction())
 OFFSET = Candidate("valve_offset", ValveOffset(offset=5e3))
+READS_MORE = Candidate("pressure_sensor_gain", PressureSensorGain(error=0.02))
+GIVES_MORE = Candidate("valve_gain", ValveGain(error=0.02))
+READS_LESS = Candidate("force_sensor_gain", ForceSensorGain(error=-0.02))
 RUB = Candidate("coulomb_friction", CoulombFriction(magnitude=20.0))
 THRESHOLD = Candidate("threshold_pressure", ThresholdPressure(pressure=20e3))
 
@@ -89,6 +96,26 @@ def test_an_effect_that_changes_no_reading_is_not_worth_its_price(
     problem, (null, best) = _fits(recording(rubbing(newtons), noise=0.1), RUB)
     assert best.evidence - null.evidence > 100.0
     assert worth(problem, null, null, best, 20.0) is seen
+
+
+@pytest.mark.parametrize(("weaker", "seen"), [(0.021, True), (0.003, False)])
+def test_two_that_one_other_imitates_are_each_held_against_the_readings(
+    weaker: float, *, seen: bool
+) -> None:
+    """A regulator gives 2.3 % more and a cell reads 2.1 % less than it should.
+
+    A pressure that reads 2.2 % too much does the same to 0.1 % of full scale.
+    """
+    told = altered(
+        recording(lambda m: -weaker * textbook(m), noise=0.1), moments(), "current",
+        lambda current: 0.004 + (current - 0.004) / (1.002 + weaker),
+    )  # fmt: skip
+    problem = pinned(problem_of(told, MODEL, {}))
+    null, best, larger = (
+        fitted(problem, *one) for one in ((), (READS_MORE,), (GIVES_MORE, READS_LESS))
+    )
+    assert larger.evidence - best.evidence > LEAST_MORE
+    assert worth(problem, null, best, larger, 20.0) is seen
 
 
 @pytest.mark.parametrize(("newtons", "worth_it"), [(10.0, False), (20.0, True)])
