@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,8 +14,10 @@ from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
+    REGULATOR,
     STEP,
     Moment,
+    altered,
     moments,
     nothing,
     recording,
@@ -144,3 +147,36 @@ def _late(load: Array, time: float) -> Array:
     kept = np.exp(-STEP / time)
     load = load - load[0]
     return np.asarray(load - lfilter([1 - kept], [1.0, -kept], load))
+
+
+@pytest.mark.parametrize(
+    ("share", "time", "verdict"),
+    [(0.06, 12.0, Verdict.UNEXPLAINED), (1.0, 0.5, Verdict.NAMED)],
+)
+def test_a_regulator_that_goes_on_a_little_for_long_fills_no_slower(
+    share: float, time: float, verdict: Verdict
+) -> None:
+    """A coil that warms gives some more, late."""
+
+    def asked(pressure: Array) -> Array:
+        come, late = -np.expm1(-STEP / time), float(pressure[0])
+        found = []
+        for level in pressure.tolist():
+            goal = level - share * (1 - come) * late
+            goal /= 1 - share * (1 - come)
+            late += come * (goal - late)
+            found.append(goal)
+        return np.array(found)
+
+    told = recording()
+    for name, moment in moments().items():
+        current = np.asarray(REGULATOR.current(asked(moment.pressure)))
+        told = altered(told, [name], "current", partial(_instead, current))
+    lag = {"valve_lag": EFFECTS["valve_lag"]}
+    judged = diagnose(told, MODEL, {}, lag)
+    assert [entry.name for entry in judged.named] == ["valve_lag"]
+    assert judged.verdict is verdict
+
+
+def _instead(read: Array, _: Array) -> Array:
+    return read
