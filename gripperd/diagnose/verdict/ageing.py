@@ -60,8 +60,10 @@ class Ageing(InMuscle):
 
     def told(self, _start: float) -> str:
         """Say what it does."""
-        rest = f"{self.size:+.0f} N after a rest, within {self.time:.1f} s"
-        return f"sticks: {rest}, until it has gone by {self.distance:.1%}"
+        rest = (
+            f"{self.size:.0f} N after a long rest, most of it after {self.time:.1f} s"
+        )
+        return f"sticks by {rest}, torn off within {self.distance:.1%} of contraction"
 
 
 def _bonds(rate: Array, step: Array, laws: tuple[float, float], state: Array) -> Array:

@@ -112,7 +112,10 @@ def test_what_sticks_after_a_rest_is_no_hysteresis() -> None:
     # After the longest rests, of nine and of twelve seconds.
     assert seen.size == pytest.approx(HIDDEN, rel=0.2)
     said = Ageing(size=41.3, distance=0.008, time=2.6).told(0.0)
-    assert said == "sticks: +41 N after a rest, within 2.6 s, until it has gone by 0.8%"
+    assert said == (
+        "sticks by 41 N after a long rest, most of it after 2.6 s,"
+        " torn off within 0.8% of contraction"
+    )
 
 
 def test_dry_friction_does_not_age() -> None:
