@@ -220,15 +220,40 @@ def test_another_sign_that_fits_as_well_is_taken_if_fewer_names_do(
     here = fitted(problem, *first)
 
     def searched(other: Problem) -> Found:
-        told = fitted(other, *then)
-        cost = told.fit.cost + 2 * (told.evidence - here.evidence - lead)
-        return ended(other, replace(told, fit=replace(told.fit, cost=cost)))
+        return ended(other, _leading(fitted(other, *then), here, lead))
 
     found = ended(problem, here)
     told = with_sign_beside(found, first, searched)
     assert (told is not found) is is_taken
     if is_taken:
         assert told.problem.model.at_rest is not problem.model.at_rest
+
+
+def test_of_signs_that_a_stand_in_makes_alike_the_one_that_needs_it_least_is_searched(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = _rising()
+    here, bare = fitted(problem, RUB, BIAS), fitted(problem, RUB)
+    ahead = {AtRest.INFLATING: (0.5, -1.0), AtRest.YIELDING: (1.0, -30.0)}
+
+    def beside(found: Found, *_: object) -> list[Rival]:
+        leads = ahead.get(found.problem.model.at_rest, (0.0, -40.0))
+        return [
+            _leading(one, here, by) for one, by in zip((here, bare), leads, strict=True)
+        ]
+
+    monkeypatch.setattr(resting, "_beside", beside)
+    told = with_sign_beside(
+        ended(problem, here), (RUB, BIAS),
+        lambda other: ended(other, _leading(bare, here, 0.1)),
+    )  # fmt: skip
+    assert told.problem.model.at_rest is AtRest.INFLATING
+
+
+def _leading(one: Rival, other: Rival, by: float) -> Rival:
+    """The same with so much more evidence than another. [nat]"""
+    cost = one.fit.cost + 2 * (one.evidence - other.evidence - by)
+    return replace(one, fit=replace(one.fit, cost=cost))
 
 
 def test_what_no_sign_has_a_part_in_is_not_searched_again() -> None:
