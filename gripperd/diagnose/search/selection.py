@@ -9,6 +9,7 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.residuals.holdout import Split
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.alike import with_rests_alike
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
 from gripperd.diagnose.search.reading import as_read
@@ -62,14 +63,20 @@ def selected(
     progress("candidates, singles and pairs", 0.3)
 
     def searched(problem: Problem) -> Found:
-        return search(replace(train, model=problem.model), listed, rng)
+        asked = replace(train, model=problem.model, constants=problem.constants)
+        return search(asked, listed, rng)
 
     found = with_sign_beside(searched(train), listed, searched)
     if (other := with_vented_zero(found)) is not found.problem:
         found = searched(other)
-    train = replace(train, model=found.problem.model)
+    found = with_rests_alike(found, searched)
+    train = replace(train, model=found.problem.model, constants=found.problem.constants)
     test = replace(
-        parts.test, model=train.model, courses=train.courses, band=train.band
+        parts.test,
+        model=train.model,
+        constants=train.constants,
+        courses=train.courses,
+        band=train.band,
     )
     progress("rivals", 0.7)
     best = contest(found, listed)
