@@ -30,6 +30,8 @@ METHODS: Mapping[str, Method] = {
     "random forest": forest,
     "Gaussian process": gaussian_process,
 }
+SEEDS = 2**32
+"""Seeds that scikit-learn knows: from a larger one it refuses to draw."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +63,7 @@ def contested(question: Question, directory: Path) -> Outcome:
     start = time.perf_counter()
     found = diagnosed(case, question.seed)
     turns = {OURS: Turn(_ours(found), time.perf_counter() - start)}
-    exhibit = shown(found, question.seed)
+    exhibit = shown(found, question.seed % SEEDS)
     for name, method in METHODS.items():
         turns[name] = _turn(method, exhibit)
     gaps = {str(signal): gap for signal, gap in found.gaps.items()}
