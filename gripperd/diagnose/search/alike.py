@@ -1,7 +1,7 @@
-"""Whether all sweeps come to rest alike: a sign of its own can hide a first inflation.
+"""Whether all sweeps come to rest alike: signs of their own hide what goes with time.
 
 Most rigs come to every length from the same side. Where one sweep seems to rest the
-other way, something else may act in that one alone.
+other way, it may be the first inflation, or the last of a muscle that tires.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.resting import DECIDED
 
-TURNED = 1.0
+TURNED = 0.8
 """Part of a sign of its own, of -1 to 1, by which a sweep rests the other way. [-]"""
 NONE = 1e-3
 """What a sweep keeps of it where all rest alike, of what it may have. [-]"""

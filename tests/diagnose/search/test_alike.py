@@ -80,6 +80,22 @@ def _never(_: Problem) -> Found:
     raise AssertionError
 
 
+@pytest.mark.parametrize(("sign", "is_asked"), [(0.7, False), (0.9, True)])
+def test_most_of_a_sign_of_its_own_is_the_other_way(
+    sign: float, *, is_asked: bool
+) -> None:
+    """Where the others rest midway."""
+    problem = _problem(nothing)
+    here = fitted(problem)
+    shifts = np.array(
+        [sign / RESTING * (o.path == "rest.1") for o in problem.constants]
+    )
+    fit = replace(here.fit, point=replace(here.fit.point, shifts=shifts))
+    found = ended(problem, replace(here, fit=fit))
+    told = with_rests_alike(found, _ahead(found.best.evidence + 2 * DECIDED))
+    assert (told is not found) is is_asked
+
+
 @pytest.mark.parametrize(("lead", "is_taken"), [(0.1, True), (-0.1, False)])
 def test_something_else_has_to_be_clearly_better(
     lead: float, *, is_taken: bool
