@@ -42,20 +42,16 @@ def span(region: Region, name: str) -> str:
 
 
 def way(region: Region) -> str:
-    """Say which way it went in a region; nothing where it rested.
+    """Say which way alone it went in a region; nothing where it rested or went both.
 
     >>> way({"direction": (-1.0, -1.0)}), way({"direction": (-1.0, 1.0)})
-    ('extending', 'extending and contracting')
+    ('extending', '')
     """
     said = []
-    for name, words in WAYS.items():
+    for name, (down, up) in WAYS.items():
         low, high = region.get(name, (0.0, 0.0))
-        gone = [
-            word
-            for word, is_so in zip(words, (low < 0, high > 0), strict=True)
-            if is_so
-        ]
-        said += [" and ".join(gone)] if gone else []
+        if (low < 0) != (high > 0):
+            said.append(down if low < 0 else up)
     return ", ".join(said)
 
 

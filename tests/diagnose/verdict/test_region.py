@@ -36,12 +36,13 @@ def test_a_program_reads_the_time_of_the_file_however_long_ago_it_began() -> Non
     ("region", "said"),
     [
         ({"direction": (1.0, 1.0)}, "contracting"),
-        ({"direction": (-1.0, 1.0)}, "extending and contracting"),
+        ({"direction": (-1.0, 1.0)}, ""),
+        ({"direction": (-1.0, 0.0), "pressure_direction": (-1.0, 1.0)}, "extending"),
         ({"direction": (0.0, 0.0), "pressure_direction": (-1.0, -1.0)}, "falling"),
         ({"direction": (0.0, 0.0)}, ""),
     ],
 )
-def test_a_region_says_which_way_it_went(
+def test_a_region_says_which_way_alone_it_went(
     region: dict[str, tuple[float, float]], said: str
 ) -> None:
     assert way(region) == said
