@@ -45,6 +45,24 @@ def test_at_room_temperature_or_an_unknown_one_nothing_changes(
     assert change(muscle, TemperatureStiffness(0.005, 2e-4), kelvin) == 0.0
 
 
+def test_rubber_that_is_late_has_63_percent_after_its_time(muscle: Muscle) -> None:
+    """A thermometer leaps by 10 K after a second; the wall takes 15 s."""
+    time = np.arange(0.0, 91.0)
+    kelvin = np.where(time < 1, 293.15, 303.15)
+    track = track_of(
+        muscle,
+        time=time,
+        step=np.diff(time, prepend=0.0),
+        temperature=kelvin,
+        contraction=0.1,
+    )
+    effect = TemperatureStiffness(modulus=0.005, late=15.0)
+    pull = effect.along(np.zeros(time.size), track, effect.rest())
+    assert pull[0] == 0.0
+    assert pull[15] == pytest.approx(-0.05 * RUBBER * (1 - np.exp(-1)))
+    assert pull[-1] == pytest.approx(-0.05 * RUBBER, rel=3e-3)
+
+
 def test_it_follows_the_law_of_arrhenius(muscle: Muscle) -> None:
     """Over 20 K to a hundredth of its size, with 10 kJ/mol."""
     kelvin = np.linspace(288.15, 308.15, 21)
