@@ -25,6 +25,10 @@ from gripperd.model.parameter import amplitude, choice, shape
 from gripperd.model.spool import slides, sticking, waking
 from gripperd.model.track import Array, Track
 
+NARROW = 5e3
+"""Width up to which a band that wakes but late is a lag: common regulators settle
+within 1 % of their span anyway. [Pa]"""
+
 
 class Spool(StrEnum):
     """What a spool does once the command has left the band."""
@@ -79,6 +83,11 @@ class ValveDeadBand(InValve):
     So what has no band is not late. Slower than 50 kPa/s no regulator is that needs a
     fraction of a second to fill a muscle.
     """
+
+    @property
+    def becomes(self) -> str:
+        """A lag, once the way to the command is long and the band hardly there."""
+        return "valve_lag" if self.spool is Spool.WAKES and self.width < NARROW else ""
 
     def rest(self) -> Array:
         """A spool that has not begun."""

@@ -102,3 +102,18 @@ def test_one_that_wakes_begins_no_further_away_than_its_band(muscle: Muscle) -> 
         track = track_of(muscle, command=asked, step=0.0, pressure=asked + off)
         found = effect.along(asked, track, effect.rest())
         assert np.abs(found - asked).max() <= WIDTH
+
+
+@pytest.mark.parametrize(
+    ("spool", "width", "name"),
+    [
+        (Spool.WAKES, 4.9e3, "valve_lag"),
+        (Spool.WAKES, 5.1e3, ""),
+        (Spool.TRAILS, 4.9e3, ""),
+        (Spool.STICKS, 4.9e3, ""),
+    ],
+)
+def test_a_band_within_1_percent_that_only_makes_it_late_is_a_lag(
+    spool: Spool, width: float, name: str
+) -> None:
+    assert ValveDeadBand(width=width, spool=spool).becomes == name
