@@ -1,4 +1,4 @@
-"""Operators that remember: lag, delay, play and stop.
+"""Operators that remember: lag, trail, delay, play and stop.
 
 Each walks one sequence and carries its state in an array that the caller keeps, so
 that a run may be given whole or sample by sample with the same result. A state of NaN
@@ -46,6 +46,20 @@ def lag(signal: Array, step: Array, constant: float, state: Array) -> Array:
         What has followed so far, shape ``(1,)``; it is moved on.
     """
     return compiled(_lag)(signal, step, constant, state)
+
+
+def trail(signal: Array, step: Array, constant: float, state: Array) -> Array:
+    """First-order lag, exact for a signal that goes straight from sample to sample.
+
+    Parameters
+    ----------
+    signal, step, constant
+        As for :func:`lag`.
+    state
+        What has followed so far, and where the signal was, shape ``(2,)``; it is moved
+        on.
+    """
+    return compiled(_trail)(signal, step, constant, state)
 
 
 def delay(signal: Array, time: Array, late: float, state: Array) -> Array:
@@ -144,6 +158,22 @@ def _lag(signal: Array, step: Array, constant: float, state: Array) -> Array:
         last = goal + (last - goal) * np.exp(-step[index] / constant)
         out[index] = last
     state[0] = last
+    return out
+
+
+def _trail(signal: Array, step: Array, constant: float, state: Array) -> Array:
+    out = np.empty_like(signal)
+    last, came = state
+    for index in range(signal.size):
+        goal = came if np.isnan(signal[index]) else signal[index]
+        if np.isnan(last):
+            last = came = goal
+        share = step[index] / constant
+        behind = (goal - came) * (-np.expm1(-share) / share if share > 0 else 1.0)
+        last = goal - behind + (last - came) * np.exp(-share)
+        came = goal
+        out[index] = last
+    state[:] = last, came
     return out
 
 

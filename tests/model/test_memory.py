@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripperd.model.memory import begin, dahl, lag, leaked, play
+from gripperd.model.memory import begin, dahl, lag, leaked, play, trail
 
 TIME = np.arange(0.0, 6.0, 0.1)
 STEP = np.diff(TIME, prepend=0.0)
@@ -21,6 +21,30 @@ def test_a_lag_settles_at_the_first_sample_that_is_known() -> None:
     found = lag(sent, np.full(4, 0.1), 2.0, begin())
     assert np.isnan(found[:2]).all()
     assert found[2:] == pytest.approx([3.0, 4.0 - np.exp(-0.05)])
+
+
+def test_what_trails_a_ramp_is_as_much_behind_however_often_it_is_read() -> None:
+    """Of ``y + T y' = 3 t`` from rest: ``y = 3 (t - T (1 - exp(-t / T)))``."""
+    for time in (TIME, TIME[::7], TIME**1.5):
+        step = np.diff(time, prepend=0.0)
+        found = trail(3 * time, step, 0.4, begin(2))
+        assert found == pytest.approx(3 * (time + 0.4 * np.expm1(-time / 0.4)))
+
+
+def test_what_trails_may_be_read_piece_by_piece() -> None:
+    sent = np.where(KNOWN, np.sin(TIME), np.nan)
+    state = begin(2)
+    pieces = [
+        trail(sent[piece], STEP[piece], 0.7, state)
+        for piece in (slice(0, 17), slice(17, 22), slice(22, None))
+    ]
+    assert np.concatenate(pieces) == pytest.approx(trail(sent, STEP, 0.7, begin(2)))
+
+
+def test_what_trails_settles_at_the_first_sample_that_is_known() -> None:
+    found = trail(np.array([np.nan, 3.0, 3.0]), np.full(3, 0.1), 2.0, begin(2))
+    assert np.isnan(found[0])
+    assert found[1:] == pytest.approx([3.0, 3.0])
 
 
 def test_dry_friction_is_still_turning_after_a_sample_that_is_missing() -> None:

@@ -19,7 +19,7 @@ from gripperd.diagnose.readings.travel import leaning
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.runs import Runs
 from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
-from gripperd.model.memory import begin, lag, stop
+from gripperd.model.memory import begin, stop, trail
 from gripperd.model.track import Array, Track
 
 INPUTS: Mapping[Signal, tuple[str, ...]] = {
@@ -90,7 +90,9 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
             value = _along(effect, value, track)
     if signal is Signal.PRESSURE and explanation.response > 0:
         quick = explanation.response
-        value = track.each(lambda one, run: lag(one, run.step, quick, begin()), value)
+        value = track.each(
+            lambda one, run: trail(one, run.step, quick, begin(2)), value
+        )
     # Neither does a regulator suck, nor do jaws pull at what they hold.
     bounded = signal in (Signal.PRESSURE, Signal.GRIP)
     return np.maximum(value, 0.0) if bounded else value

@@ -12,6 +12,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.alike import with_rests_alike
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.overstepped import with_overstepped
+from gripperd.diagnose.search.quick import with_quick_regulator
 from gripperd.diagnose.search.reading import as_read
 from gripperd.diagnose.search.rest_length import length_is_open, with_other_length
 from gripperd.diagnose.search.resting import with_sign_beside
@@ -69,6 +70,7 @@ def selected(
     found = with_sign_beside(searched(train), listed, searched)
     if (other := with_vented_zero(found)) is not found.problem:
         found = searched(other)
+    found = with_quick_regulator(found, searched)
     found = with_rests_alike(found, searched)
     train = replace(train, model=found.problem.model, constants=found.problem.constants)
     test = replace(
