@@ -462,7 +462,7 @@ def test_what_is_unexplained_is_told_of_the_signal_in_which_it_shows() -> None:
         recording(threshold(25.0)),
         moments(),
         "current",
-        lambda current: current + 3e-4 * np.sin(1e4 * current),
+        lambda current: current + 2e-4 * np.sin(1e4 * current),
     )
     found = _late(told)
     assert found.verdict is Verdict.UNEXPLAINED

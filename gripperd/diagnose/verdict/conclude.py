@@ -4,15 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-import numpy as np
-
 from gripperd.diagnose.fit.polish import Polished
 from gripperd.diagnose.residuals.holdout import FEW
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.gap import REACHED, Gap
-from gripperd.diagnose.verdict.structure import Structure, loudness, structures
+from gripperd.diagnose.verdict.structure import WANDERS, Structure, loudness, structures
 from gripperd.model.effect import Signal
 
 STRUCTURED = 1e-4
@@ -52,7 +50,8 @@ class Conclusion:
     left: tuple[Structure, ...]
     """What is left after the best explanation."""
     share: float
-    """Share of the structure that the best explanation takes away. [-]"""
+    """Share of the structure that the best explanation takes away, of all or of the
+    signal of which it takes the least. [-]"""
     before: tuple[Structure, ...] = ()
     """What is left with the best constants alone."""
     louder: Mapping[Signal, float] = field(default_factory=dict)
@@ -84,13 +83,15 @@ def conclude(
     """
     before = _structured(problem, found.null.fit)
     after = _structured(problem, contest.best.fit)
-    excess, left = _excess(before), _excess(after)
-    share = 1 - left / excess if excess > 0 else 1.0
-    remains = bool(_remaining(after))
+    remaining = _remaining(after)
+    # Of each by itself as well: what is large in one hides what is left of another.
+    plain = {one.signal for one in remaining if one.size > WANDERS}
+    share = min(_share(before, after, each) for each in (None, *plain))
+    is_open = bool(remaining) and share < EXPLAINED
     louder = _louder(problem, contest.best.fit)
     if not contest.best.candidates:
-        verdict = Verdict.UNEXPLAINED if remains or louder else Verdict.NONE
-    elif is_near or contest.best.is_misnamed or (remains and share < EXPLAINED):
+        verdict = Verdict.UNEXPLAINED if remaining or louder else Verdict.NONE
+    elif is_near or contest.best.is_misnamed or is_open:
         verdict = Verdict.UNEXPLAINED
     elif any(contest.equivalents):
         verdict = Verdict.AMBIGUOUS
@@ -169,8 +170,17 @@ def _louder(problem: Problem, fit: Polished) -> dict[Signal, float]:
     return found
 
 
-def _excess(found: Sequence[Structure]) -> float:
-    return float(np.max([max(one.excess, 0.0) for one in found], initial=0.0))
+def _share(
+    before: Sequence[Structure],
+    after: Sequence[Structure],
+    signal: Signal | None = None,
+) -> float:
+    """Share of the structure, of all or of one signal, that is taken away. [-]."""
+    excess, left = (
+        max((one.excess for one in found if signal in (None, one.signal)), default=0.0)
+        for found in (before, after)
+    )
+    return 1 - max(left, 0.0) / excess if excess > 0 else 1.0
 
 
 def _remaining(found: Sequence[Structure]) -> list[Structure]:
