@@ -8,6 +8,7 @@ import numpy as np
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.noise.model import Noise
 from gripperd.diagnose.readings.cutting import courses
+from gripperd.diagnose.readings.grasp import with_held_way
 from gripperd.diagnose.readings.jaws import through_jaws, told_by_jaws
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.coherent import check_coherent
@@ -58,6 +59,8 @@ def problem_of(
         recording = through_jaws(recording, model.linkage, length)
         model = replace(model, told_length=length, told_by=model.linkage)
     sweeps, noises = courses(recording, length)
+    if model.told_by is not None and "grip" in noises:
+        sweeps = tuple(with_held_way(sweep, noises["grip"]) for sweep in sweeps)
     if any(sweep.yields for sweep in sweeps):
         # What is held there moves after all, and its friction turns round.
         model = replace(model, at_rest=AtRest.INFLATING)

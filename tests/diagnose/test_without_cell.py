@@ -7,6 +7,7 @@ import pytest
 
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.effects import EFFECTS
 from gripperd.errors import InputError
@@ -14,6 +15,7 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from gripperd.units import KILO, MILLI
 from tests.diagnose.small import (
+    FORCE_NOISE,
     GRIP_NOISE,
     LINKAGE,
     MODEL,
@@ -44,14 +46,21 @@ def tiring(moment: Moment) -> Array:
     return lost
 
 
+def grasped(hidden: Hidden, bend: float = 0.0) -> Recording:
+    """Jaws close on one object after the other, press, and let go of some pressure.
+
+    They bend by so much per newton of their grip, and the muscle has a cell. [m/N]
+    """
+    runs = tuple(_grasp(place, hidden, bend) for place in range(len(SIZES)))
+    return Recording("jaws", "0" * 64, runs)
+
+
 def gripped(hidden: Hidden) -> Recording:
-    """Jaws close on one object after the other, press, and let go of some pressure."""
-    return Recording(
-        "jaws", "0" * 64, tuple(_grasp(place, hidden) for place in range(len(SIZES)))
-    )
+    """The same without a cell, by jaws that do not bend."""
+    return without(grasped(hidden), "force")
 
 
-def _grasp(place: int, hidden: Hidden) -> Run:
+def _grasp(place: int, hidden: Hidden, bend: float) -> Run:
     since = np.arange(0.0, 20.0, 0.1)
     shut = (LINKAGE.open_width - SIZES[place] * MILLI) / (
         LINKAGE.ratio * MUSCLE.rest_length
@@ -64,6 +73,7 @@ def _grasp(place: int, hidden: Hidden) -> Run:
     pull = textbook(moment) + hidden(moment)
     spring = 240.0 + 1000.0 * MUSCLE.rest_length * way
     grip = np.where(way == shut, np.fmax(pull - spring, 0.0) / 4.0, 0.0)
+    opening = LINKAGE.opening(way, MUSCLE.rest_length) + bend * grip
     random = np.random.default_rng([place, 7])
 
     def read(value: object, noise: float) -> Array:
@@ -75,8 +85,9 @@ def _grasp(place: int, hidden: Hidden) -> Run:
             "time": moment.time,
             "current": np.asarray(REGULATOR.current(pressure)),
             "pressure": read(pressure, PRESSURE_NOISE),
-            "opening": read(LINKAGE.opening(way, MUSCLE.rest_length), OPENING_NOISE),
+            "opening": read(opening, OPENING_NOISE),
             "grip": read(grip, GRIP_NOISE),
+            "force": read(pull, FORCE_NOISE),
         },
     )
 
@@ -126,3 +137,22 @@ def test_jaws_that_open_wider_than_thought_are_told_by_the_grip() -> None:
     paths = [constant.path for constant in found.split.train.constants]
     shift = found.recalibrated.shifts[paths.index("gripper.open_width")]
     assert shift == pytest.approx(-1, abs=0.3)
+
+
+def test_jaws_that_bend_are_told_by_the_pull_of_a_muscle_that_seems_longer() -> None:
+    found = diagnose(grasped(nothing, bend=4e-5), JAWS, {}, EFFECTS)
+    gap = found.gaps[Signal.FORCE]
+    (entry,) = found.named
+    assert entry.name == "jaw_compliance"
+    assert set(entry.equivalents) <= {"series_compliance"}
+    assert entry.parameters["compliance"].value == pytest.approx(4e-5, rel=0.1)
+    assert gap.after < 1.1 * gap.noise_floor < 0.2 * gap.before
+
+
+def test_what_bends_about_an_object_turns_no_friction_round() -> None:
+    for bend in (0.0, 4e-5):
+        problem = problem_of(grasped(nothing, bend=bend), JAWS, {})
+        for course in problem.courses:
+            pressed = course.column("grip") > 20 * GRIP_NOISE
+            assert pressed.sum() > 50
+            assert np.all(course.direction[pressed] == 1)

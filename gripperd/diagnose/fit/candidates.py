@@ -11,7 +11,7 @@ from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.readings.travel import travel
 from gripperd.diagnose.residuals.constants import PARTS, PULLED
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.model.effect import Effect, Signal, Stage
+from gripperd.model.effect import Effect, Signal, Stage, acts_in_gripper
 from gripperd.model.parameter import in_use, parameters, words
 from gripperd.model.track import Array
 
@@ -130,10 +130,16 @@ def _unseen(problem: Problem, kind: type[Effect], columns: frozenset[str]) -> st
 
 
 def _is_compared(problem: Problem, effect: Effect) -> bool:
-    """Whether the signal of an effect is compared with what it follows from."""
-    if effect.stage is Stage.GRIPPER:
-        return problem.model.told_by is None or effect.signal in problem.signals
-    return bool(problem.shown(frozenset({effect.signal})))
+    """Whether the signal of an effect is compared with what it follows from.
+
+    Jaws that tell the length tell another where they are seen to bend, and so another
+    pull. A play of theirs is not to be told from a length.
+    """
+    usual, shows = _typical(effect, 1), problem.shown(frozenset({effect.signal}))
+    if acts_in_gripper(usual) and problem.model.told_by is not None:
+        bends = any(course.bends for course in problem.courses)
+        return effect.signal in shows or bool(bends and usual.widening(1.0, 1.0) != 0)
+    return bool(shows) or effect.stage is Stage.GRIPPER
 
 
 def _turned(problem: Problem, quantity: str, signal: Signal) -> bool:

@@ -40,6 +40,8 @@ class Course:
     """Whether the pressure of its recording goes in stairs, which no trend follows."""
     yields: bool = False
     """Whether it is held by a frame that yields."""
+    bends: bool = False
+    """Whether jaws that tell its contraction bend about an object."""
     listed: bool = False
     """Whether its recording lists settled points, with a counter for a clock."""
     slices: tuple[slice, ...] = (slice(None),)
@@ -119,6 +121,7 @@ def joined(courses: Sequence[Course]) -> Course:
         waiting=np.concatenate([course.waiting for course in courses]),
         on_stairs=any(course.on_stairs for course in courses),
         yields=any(course.yields for course in courses),
+        bends=any(course.bends for course in courses),
         listed=is_table(courses),
         slices=tuple(
             slice(end - len(course), end)

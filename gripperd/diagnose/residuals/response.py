@@ -113,8 +113,9 @@ def change(
     step
         Its size.
     """
-    # A sensor changes what is thought to have happened; nothing else does.
-    known = None if effect.stage is Stage.SENSOR else base.tracks
+    # A sensor changes what is thought to have happened, and jaws that tell the length.
+    told = effect.stage is Stage.GRIPPER and problem.model.told_by is not None
+    known = None if told or effect.stage is Stage.SENSOR else base.tracks
     expected = problem.expected(there, moves(effect), known)
     return _quotient(problem, expected, base.expected, step)
 

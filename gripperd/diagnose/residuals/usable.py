@@ -28,6 +28,10 @@ of good pressure transmitters. [-]"""
 ARRIVED = 2.0
 """Time in which a pressure has come to rest, but for a leak. [s]"""
 
+BESIDE = 0.05
+"""Share of its range by which a pressure lies beside the line of its valve: those in
+use bend by less. [-]"""
+
 TURNED = 0.1
 """Share of the way by which friction has turned round from which it is turning. [-]"""
 
@@ -59,7 +63,7 @@ def usable(course: Course, signal: Signal) -> Mask:
     if sweeps and (pulls or signal is Signal.PRESSURE):
         good &= ~_transients(course)
     if sweeps and signal is Signal.PRESSURE:
-        good &= ~_arriving(course)
+        good &= ~(_arriving(course) | _astray(course))
     if pulls:
         good &= ~_reversals(course) & ~_missed(course, "pressure")
         good &= ~_winding(course)
@@ -217,6 +221,30 @@ def _arriving(course: Course) -> Mask:
     )
     if np.max(away[:NEIGHBOURS]) > 2 * sure:
         found[: int(np.flatnonzero(away > sure)[-1]) + NEIGHBOURS] = True
+    return found
+
+
+def _astray(course: Course) -> Mask:
+    """Samples in which a sweep begins far from its command, and comes to it.
+
+    What was asked for before it began is not known, though it goes on at once.
+    """
+    pressure, current = course.column("pressure"), course.column("current")
+    found = np.zeros(len(course), dtype=bool)
+    known = np.isfinite(pressure + current)
+    if known.sum() < 2 * NEIGHBOURS or np.ptp(current[known]) == 0:
+        return found
+    line = np.polynomial.Polynomial.fit(current[known], pressure[known], 1)
+    away = np.abs(pressure - line(current))
+    off, far = (
+        max(times * float(np.nanmedian(away)), share * float(np.nanmax(pressure)))
+        for times, share in ((OFF, BESIDE), (2 * OFF, 2 * BESIDE))
+    )
+    there = (away <= off) & (course.time - course.time[0] < ARRIVED)
+    came = int(np.argmax(there))
+    gone = abs(pressure[came] - pressure[known][0])
+    if there.any() and away[known][0] > far and gone > off:
+        found[: came + NEIGHBOURS] = True
     return found
 
 

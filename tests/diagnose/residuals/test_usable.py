@@ -324,6 +324,29 @@ def test_a_pressure_that_comes_to_rest_as_a_sweep_begins_tells_nothing(
     assert good.all() == (left_out == 0)
 
 
+@pytest.mark.parametrize(
+    ("before", "left_out"),
+    [
+        pytest.param(240e3, 16, id="it was at 240 kPa"),
+        pytest.param(0.0, 0, id="it was at rest"),
+    ],
+)
+def test_a_pressure_that_comes_to_a_ramp_as_a_sweep_begins_tells_nothing(
+    before: float, left_out: int
+) -> None:
+    """Its command went back right before the record began, and ramps at once."""
+    clock = 0.05 * np.arange(400.0)
+    current = 0.004 + 0.0005 * clock
+    settled = REGULATOR.gain * (current - 0.004)
+    pressure = settled + before * np.exp(-clock / 0.4) + noise(400, 0.5e3)
+    told = run(current=current, pressure=pressure, time=clock)
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.PRESSURE)
+    assert not good[:left_out].any()
+    assert good[2 * left_out + 10 :].all()
+    assert good.all() == (left_out == 0)
+
+
 def test_a_slow_ramp_of_pressure_is_usable() -> None:
     course = _courses(recording())["a"]
     assert usable(course, Signal.PRESSURE).all()
