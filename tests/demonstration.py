@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 
 from gripperd.config import ModelFile, load_model
 from gripperd.demo.files import write_rig
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.effects import EFFECTS
 from gripperd.recordings import read_recording

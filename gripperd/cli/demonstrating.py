@@ -12,8 +12,7 @@ from gripperd.cli.app import app
 from gripperd.cli.console import console
 from gripperd.cli.interrupt import interruptible
 from gripperd.cli.waiting import progress
-from gripperd.demo.files import FILES
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 
 if TYPE_CHECKING:
     from gripperd.demo.story import Story
@@ -44,6 +43,8 @@ def demo_discrepancy(
 
 
 def _left(out: Path) -> str:
+    from gripperd.demo.files import FILES
+
     there = [name for name in FILES if (out / name).exists()]
     return f"{out} holds {', '.join(there)}" if there else "wrote nothing"
 

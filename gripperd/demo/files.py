@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import yaml
 
+from gripperd.demo.hidden import Hidden
 from gripperd.demo.programme import PAUSE, programmes
-from gripperd.demo.rig import ANGLE, CURRENT, DIAMETER, LENGTH, PRESSURE, Hidden, Rig
+from gripperd.demo.rig import ANGLE, CURRENT, DIAMETER, LENGTH, PRESSURE, Rig
 from gripperd.errors import InputError
 from gripperd.units import KILO, MILLI
 

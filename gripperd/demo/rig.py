@@ -15,12 +15,12 @@ References
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 from math import exp, pi, radians, sin, sqrt, tan
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gripperd.demo.hidden import Hidden
 from gripperd.demo.programme import Programme
 
 Array = NDArray[np.float64]
@@ -43,14 +43,6 @@ THRESHOLD = 18e3
 """Pressure that stretches the bladder before the braid carries. [Pa]"""
 LOOP, SOFT = 22.0, 0.008
 """Half height of the hysteresis loop [N], and the travel that turns it [-]."""
-
-
-class Hidden(StrEnum):
-    """What the rig does and the model does not know of."""
-
-    CREEP = "creep"
-    THRESHOLD = "threshold"
-    HYSTERESIS = "hysteresis"
 
 
 @dataclass(frozen=True, slots=True)

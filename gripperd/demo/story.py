@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gripperd.config import ModelFile, load_model
 from gripperd.demo.files import STEP, write_rig
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.document import document
 from gripperd.effects import EFFECTS

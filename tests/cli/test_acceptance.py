@@ -6,7 +6,7 @@ import pytest
 
 from gripperd.cli.acceptance import accept
 from gripperd.config import ModelFile, load_model
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from tests.daemon import settings_file
 from tests.demonstration import example

@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -118,6 +119,17 @@ def test_enabling_and_disabling_moves_nothing(daemon: Daemon) -> None:
 def test_help_names_units_and_the_version_is_told() -> None:
     assert "[mm]" in gripperd("predict", "--help").stdout
     assert gripperd("--version").stdout == f"gripperd {__version__}\n"
+
+
+def test_no_command_waits_for_libraries_that_it_does_not_need() -> None:
+    """They take longer than all else that a command has to load."""
+    loaded = subprocess.run(
+        [sys.executable, "-X", "importtime", "-m", "gripperd", "--version"],
+        check=True, capture_output=True, text=True, timeout=PATIENCE,
+    )  # fmt: skip
+    names = {line.rpartition("|")[2].strip() for line in loaded.stderr.splitlines()}
+    assert "gripperd.demo.hidden" in names
+    assert not names & {"numpy", "scipy", "numba", "yaml", "matplotlib"}
 
 
 def test_what_would_be_refused_later_is_warned_of(tmp_path: Path) -> None:

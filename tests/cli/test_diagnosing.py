@@ -10,7 +10,7 @@ from typing import NamedTuple
 import pytest
 
 from gripperd.demo.files import write_rig
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.document import document
 from gripperd.store import Versions
 from tests.daemon import PATIENCE, START, gripperd, settings_file

@@ -12,7 +12,7 @@ import typer
 
 from gripperd.cli.interrupt import AGAIN, interruptible
 from gripperd.demo.files import write_rig
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from tests.daemon import PATIENCE, START, until
 
 REPORT = ("report.html", "diagnosis.json")

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from gripperd.cli.verdict import show
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.recording import Contradiction, Rejection
 from gripperd.diagnose.verdict.conclude import Verdict

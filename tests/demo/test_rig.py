@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from gripperd.demo.files import HEADER, write_rig
+from gripperd.demo.hidden import Hidden
 from gripperd.demo.programme import programmes
-from gripperd.demo.rig import ANGLE, DIAMETER, Hidden, Rig
+from gripperd.demo.rig import ANGLE, DIAMETER, Rig
 from gripperd.errors import InputError
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.demo.story import demonstrate
 from gripperd.errors import InputError
 from tests.demonstration import SEED, STEP

@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 
-from gripperd.demo.rig import THRESHOLD, Hidden
+from gripperd.demo.hidden import Hidden
+from gripperd.demo.rig import THRESHOLD
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.document import document
 from gripperd.diagnose.readings.recording import Contradiction, Kind, Rejection

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.readings.recording import Contradiction, Rejection
 from gripperd.diagnose.residuals.point import Point

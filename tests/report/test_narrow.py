@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.report import page
 from tests.demonstration import example
 

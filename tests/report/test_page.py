@@ -4,7 +4,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Contradiction, Kind, Rejection

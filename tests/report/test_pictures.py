@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.readings.columns import BY_QUANTITY
 from gripperd.effects.coulomb_friction import CoulombFriction

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.candidates import KEPT
 from gripperd.report import page

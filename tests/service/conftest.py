@@ -31,7 +31,7 @@ from gripperd.config import (
 from gripperd.control.gripper import Gripper
 from gripperd.control.loop import Loop
 from gripperd.demo.files import write_rig
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.drivers.analog import AnalogRig
 from gripperd.drivers.bus import TcpAddress, open_bus
 from gripperd.link.bench import BenchDesk

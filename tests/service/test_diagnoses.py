@@ -12,7 +12,7 @@ import pytest
 from gripperd import __version__
 from gripperd.config import Provenance, Settings, load_model, model_text
 from gripperd.config.lineage import Recorded
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.document import document
 from gripperd.store.diagnoses import (
     BETTER,

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from gripperd.config import ModelFile, load_model
-from gripperd.demo.rig import Hidden, Rig
+from gripperd.demo.hidden import Hidden
+from gripperd.demo.rig import Rig
 from gripperd.diagnose.diagnosis import Diagnosis, diagnose
 from gripperd.diagnose.verdict.conclude import Verdict
 from gripperd.diagnose.verdict.named import Estimate

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from gripperd.demo.rig import Hidden
+from gripperd.demo.hidden import Hidden
 from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.named import Estimate
 from tests.demonstration import example
