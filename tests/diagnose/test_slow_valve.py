@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.diagnosis import diagnose
+from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
@@ -97,3 +98,23 @@ def test_a_quick_regulator_is_not_asked_again() -> None:
 def test_where_no_lag_can_be_named_the_regulator_stays_slow() -> None:
     found = _searched(problem_of(_recording((0.036, 0.016)), MODEL, {}))
     assert with_quick_regulator(found, _searched) is found
+
+
+@pytest.mark.parametrize(
+    ("known", "is_taken"),
+    [
+        (Candidate("parameter:muscle.diameter", None, 0), True),
+        (Candidate("valve_gain", EFFECTS["valve_gain"]()), False),
+    ],
+)
+def test_no_wrong_constant_holds_a_lag_back(
+    known: Candidate, *, is_taken: bool
+) -> None:
+    found = _searched(problem_of(_recording((0.036, 0.016)), MODEL, {}))
+    late = Candidate("valve_lag", EFFECTS["valve_lag"]())
+    before, after = (
+        replace(found, best=replace(found.best, candidates=(one,)))
+        for one in (known, late)
+    )
+    taken = with_quick_regulator(before, lambda _: after)
+    assert taken is (after if is_taken else before)

@@ -7,6 +7,7 @@ does. Where all that is explained, a time that no quick regulator takes is a lag
 from collections.abc import Callable
 from dataclasses import replace
 
+from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.step_response import QUICK, RESPONDS
@@ -40,4 +41,9 @@ def with_quick_regulator(found: Found, searched: Callable[[Problem], Found]) -> 
     quick = list(problem.constants)
     quick[place] = replace(slow, nominal=USUAL, sigma=OFF)
     other = searched(replace(problem, constants=tuple(quick)))
-    return other if {*other.best.names} > {*found.best.names} else found
+    return other if _effects(other.best) > _effects(found.best) else found
+
+
+def _effects(rival: Rival) -> frozenset[str]:
+    """Names without wrong constants: one takes a little of a lag that has no name."""
+    return frozenset(one.name for one in rival.candidates if one.effect is not None)
