@@ -29,8 +29,8 @@ ARRIVED = 2.0
 """Time in which a pressure has come to rest, but for a leak. [s]"""
 
 BESIDE = 0.05
-"""Share of its range by which a pressure lies beside the line of its valve: those in
-use bend by less. [-]"""
+"""Share of its highest by which a pressure lies beside the line of its valve, for those
+in use bend by less; one that begins twice as far off comes from elsewhere. [-]"""
 
 TURNED = 0.1
 """Share of the way by which friction has turned round from which it is turning. [-]"""
