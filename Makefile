@@ -10,11 +10,10 @@ run: $(VENV)/installed
 	$(BIN)/gripperd run
 
 # Many tests wait for processes; those of one file share what it started. Threads for
-# their small matrices would take the cores from each other. Files of few long tests
-# would come last, and the other workers stand by.
+# their small matrices would take the cores from each other.
 test: export OPENBLAS_NUM_THREADS = 1
 test: $(VENV)/developing
-	$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
+	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 # All of them, unless ONLY names some, such as physics, bus, diagnosis or footprint.
 bench: $(VENV)/developing
