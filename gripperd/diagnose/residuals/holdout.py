@@ -14,9 +14,9 @@ import numpy as np
 
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.grasp import PRESSED
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.quiet import HELD
-from gripperd.diagnose.residuals.sticking import PRESSED
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 

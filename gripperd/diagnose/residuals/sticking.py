@@ -15,14 +15,12 @@ from scipy.ndimage import binary_dilation
 
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.grasp import PRESSED
 from gripperd.diagnose.readings.travel import STUCK, reversal, travel
 from gripperd.model.track import Array
 
 BRIEF = 5
 """Samples of which a trend may miss the less beside a corner. [-]"""
-
-PRESSED = 5.0
-"""Standard deviations of its noise from which a grip is one. [-]"""
 
 STICKS = 0.1
 """Share of the highest pressure by which one turns before a free muscle follows: 0.5 of

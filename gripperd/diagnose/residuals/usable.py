@@ -7,11 +7,12 @@ from scipy.ndimage import binary_dilation, uniform_filter1d
 
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
+from gripperd.diagnose.readings.grasp import PRESSED
 from gripperd.diagnose.readings.leap import leaps
 from gripperd.diagnose.readings.travel import leaning, noticed, reversal, travel
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.stages import INPUTS
-from gripperd.diagnose.residuals.sticking import PRESSED, late, stuck
+from gripperd.diagnose.residuals.sticking import late, stuck
 from gripperd.diagnose.residuals.track import TURNED as INFLATED
 from gripperd.diagnose.residuals.track import turning
 from gripperd.model.effect import Signal
