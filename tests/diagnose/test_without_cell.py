@@ -1,4 +1,4 @@
-"""A gripper on objects: its muscle has neither a cell nor a length sensor."""
+"""A gripper on objects: its muscle has no length sensor, and mostly no cell."""
 
 from dataclasses import replace
 
@@ -110,6 +110,7 @@ def test_what_takes_the_place_of_a_sensor_is_told(sound: Diagnosis) -> None:
     assert "force_N was not measured" in told
     assert sound.untested["force_sensor_gain"] == "force not measured"
     assert "opening" in sound.untested["linkage_backlash"]
+    assert "opening" in sound.untested["jaw_compliance"]
     assert "both ways under a grip" in sound.untested["pressure_hysteresis"]
 
 
