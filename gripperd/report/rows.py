@@ -9,6 +9,7 @@ from gripperd.diagnose.correction.offer import Offer
 from gripperd.diagnose.diagnosis import Diagnosis
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.columns import BY_QUANTITY
+from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import EVEN
 from gripperd.diagnose.verdict.figures import chance, fixed, stopped
 from gripperd.diagnose.verdict.gap import Gap
@@ -81,7 +82,7 @@ def gap_bars(diagnosis: Diagnosis, gap: Gap) -> Bars:
 def ranking(diagnosis: Diagnosis) -> Bars | None:
     """Draw what each candidate alone would gain, best first."""
     found = diagnosis.found
-    gains = sorted(found.gains.items(), key=lambda pair: -pair[1])[:RANKED]
+    gains = sorted(_alone(found).items(), key=lambda pair: -pair[1])[:RANKED]
     if not gains or gains[0][1] <= 0:
         return None
     top = max(gains[0][1], found.threshold)
@@ -96,11 +97,24 @@ def ranking(diagnosis: Diagnosis) -> Bars | None:
         for name, gain in gains
     )
     caption = (
-        "Gain of each candidate alone, in log odds (nat). Noise alone passes the line"
+        "Gain of each candidate alone, in log odds (nat), to first order where it came"
+        " nowhere near. Noise alone passes the line"
         " in fewer than one recording of a hundred; an offset or a constant, which has"
         " no form to choose, is believed from less"
     )
     return Bars(caption, lines, found.threshold / top)
+
+
+def _alone(found: Found) -> dict[str, float]:
+    """Gain of each name, of those that came near by a full fit. [nat].
+
+    Far from where the model is, the first order may promise what no fit keeps.
+    """
+    full: dict[str, float] = {}
+    for rival in found.rivals:
+        if len(rival.names) == 1:
+            full.setdefault(rival.names[0], rival.evidence - found.null.evidence)
+    return found.gains | full
 
 
 def contenders(diagnosis: Diagnosis) -> Table:

@@ -18,7 +18,7 @@ from gripperd.diagnose.verdict.next_experiment import Proposal
 from gripperd.errors import InputError
 from gripperd.model.effect import Signal
 from gripperd.report import page
-from gripperd.report.rows import overruled
+from gripperd.report.rows import contenders, overruled, ranking
 from gripperd.report.trace import traces
 from gripperd.reproduce.extra import not_installed
 from tests.demonstration import example
@@ -249,6 +249,17 @@ def test_it_says_why_more_evidence_may_be_passed_over(
     ahead = at_cost(creep.found.rivals[0], creep.contest.best.fit.cost - 1e3)
     contest = _rivalled(creep, ahead)
     assert "ahead by evidence alone" in written(replace(creep, contest=contest))
+
+
+def test_chart_and_table_do_not_disagree(creep: Diagnosis) -> None:
+    chart = ranking(creep)
+    assert chart is not None
+    gains = {bar.label: float(bar.value.replace("\u202f", "")) for bar in chart.lines}
+    behind = {name: float(nat) for name, nat, _ in contenders(creep).rows}
+    both = gains.keys() & behind.keys()
+    assert {"creep", "pressure_hysteresis", "presliding_hysteresis"} <= both
+    for name in both:
+        assert gains["creep"] - gains[name] == pytest.approx(behind[name], abs=1.1)
 
 
 def test_a_name_that_is_withdrawn_is_ahead_of_what_is_told(creep: Diagnosis) -> None:
