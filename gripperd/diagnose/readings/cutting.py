@@ -21,6 +21,7 @@ from gripperd.diagnose.readings.stairs import Sweep, noise_at_rest, noise_on_sta
 from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.table import lists_points
 from gripperd.diagnose.readings.travel import JAWS, STILL, contracting
+from gripperd.diagnose.readings.turn import turned
 from gripperd.errors import InputError
 from gripperd.model.track import Array
 
@@ -126,14 +127,18 @@ def _course(
     *,
     on_stairs: bool,
 ) -> Course:
-    time = sweep.columns["time"]
-    known, still = smoothed.get("contraction"), stillness(sweep)
-    least = JAWS if sweep.has("opening") else STILL
+    time, still = sweep.columns["time"], stillness(sweep)
+    direction = np.zeros_like(time)
+    if known := smoothed.get("contraction"):
+        signs = contracting(known, JAWS if sweep.has("opening") else STILL)
+        found = turned(signs, time, sweep.columns["contraction"], known)
+        direction = found.signs
+        unsure = np.logical_or(known.unsure, found.unsure)
+        smoothed = {**smoothed, "contraction": known._replace(unsure=unsure)}
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,
-        np.zeros_like(time) if known is None else contracting(known, least),
-        still, still, on_stairs, start=start,
+        direction, still, still, on_stairs, start=start,
     )  # fmt: skip
 
 

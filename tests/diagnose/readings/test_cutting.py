@@ -3,6 +3,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.errors import InputError
@@ -19,6 +20,31 @@ def test_the_reversal_lies_at_the_corner(std: float) -> None:
     direction = cycled(WAY, std).direction
     np.testing.assert_array_equal(direction[5 : CORNER - 4], 1.0)
     np.testing.assert_array_equal(direction[CORNER + 5 :], -1.0)
+
+
+def _rested(leg: int, rest: int, seed: int) -> Course:
+    """There by 8e-4 a sample, a rest, and back; noise of as much."""
+    ends = np.cumsum([20, leg, rest, leg])
+    way = np.interp(np.arange(ends[-1]), ends, 8e-4 * leg * np.array([0, 1, 1, 0]))
+    (course,) = cut(run(contraction=way + noise(way.size, 8e-4, seed)))
+    return course
+
+
+@pytest.mark.parametrize(("rest", "seed"), [(20, 0), (20, 9), (30, 9)])
+def test_a_travel_that_rests_at_its_turn_turns_with_the_way_back(
+    rest: int, seed: int
+) -> None:
+    (turn,) = 1 + np.flatnonzero(np.diff(_rested(240, rest, seed).direction) == -2)
+    assert abs(turn - 260 - rest) <= 3
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_of_short_ways_it_is_not_known_where_they_rest(seed: int) -> None:
+    course = _rested(40, 12, seed)
+    (turn,) = 1 + np.flatnonzero(np.diff(course.direction) == -2)
+    left_out = np.asarray(course.smooth["contraction"].unsure)
+    assert turn < 72 - 1
+    assert left_out[turn:71].all()
 
 
 def test_noise_alone_does_not_turn_the_travel() -> None:

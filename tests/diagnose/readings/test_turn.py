@@ -1,0 +1,96 @@
+import numpy as np
+import pytest
+
+from gripperd.diagnose.noise.smoothing import OF_LENGTH, Smooth, smooth
+from gripperd.diagnose.readings.travel import contracting
+from gripperd.diagnose.readings.turn import Turned, turned
+from gripperd.model.track import Array
+
+STEP = 0.05
+FAST = 0.016
+"""Of a carriage. [1/s]"""
+
+
+def _seen(way: Array, seed: int, std: float = 8e-4) -> tuple[Array, Array, Smooth]:
+    """Time, readings with noise, and their trend."""
+    time = STEP * np.arange(float(way.size))
+    column = way + np.random.default_rng(seed).normal(0.0, std, way.size)
+    return time, column, smooth(time, column, std**2, tried=OF_LENGTH)
+
+
+def _told(way: Array, seed: int) -> tuple[Array, Turned]:
+    time, column, known = _seen(way, seed)
+    signs = contracting(known)
+    return signs, turned(signs, time, column, known)
+
+
+def _rested(rest: float) -> tuple[Array, float]:
+    """There in 12 s, held for so long, and back; and when it leaves."""
+    ends = np.cumsum([0.0, 1.0, 12.0, rest, 12.0, 1.0])
+    time = np.arange(0.0, ends[-1], STEP)
+    top = 12 * FAST
+    return np.interp(time, ends, [0.0, 0.0, top, top, 0.0, 0.0]), float(ends[3])
+
+
+def _turns(signs: Array) -> Array:
+    places = 1 + np.flatnonzero(signs[1:] * signs[:-1] < 0)
+    return STEP * places.astype(float)
+
+
+@pytest.mark.parametrize("rest", [0.6, 1.0, 2.0])
+def test_a_way_turns_at_the_end_of_its_rest(rest: float) -> None:
+    """Every sample that is not left out lies on its own side of the turn."""
+    way, left = _rested(rest)
+    time = STEP * np.arange(float(way.size))
+    truth = np.where(time < left, 1.0, -1.0)
+    wrong, before = 0, 0
+    for seed in range(20):
+        plain, told = _told(way, seed)
+        moved = plain != 0
+        before += np.sum(moved & (plain != truth))
+        wrong += np.sum(moved & ~told.unsure & (told.signs != truth))
+    assert before > 20 * 3
+    assert wrong < before / 4
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_of_a_long_rest_the_end_is_told(seed: int) -> None:
+    way, left = _rested(2.0)
+    _, told = _told(way, seed)
+    np.testing.assert_allclose(_turns(told.signs), [left], atol=4 * STEP)
+    assert not told.unsure.any()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_round_turn_stays_where_it_was(seed: int) -> None:
+    time = np.arange(0.0, 28.0, STEP)
+    way = 0.09 * (1 - np.cos(2 * np.pi * time / 28.0))
+    plain, told = _told(way, seed)
+    np.testing.assert_array_equal(told.signs, plain)
+    assert not told.unsure.any()
+
+
+def test_a_way_back_that_halts_is_another_shape() -> None:
+    """Neither a rest nor round: its trend knows best."""
+    ends = np.array([0.0, 8.0, 8.4, 14.0, 20.0])
+    time = np.arange(0.0, 20.0, STEP)
+    plain, told = _told(np.interp(time, ends, [0.0, 0.1, 0.095, 0.095, 0.0]), 0)
+    assert _turns(plain).size == 1
+    np.testing.assert_array_equal(told.signs, plain)
+    assert not told.unsure.any()
+
+
+def test_without_noise_there_is_nothing_to_mend() -> None:
+    way, _ = _rested(1.0)
+    time = STEP * np.arange(float(way.size))
+    signs = np.where(time < 13.5, 1.0, -1.0)
+    told = turned(signs, time, way, Smooth(way, 0.0 * way))
+    np.testing.assert_array_equal(told.signs, signs)
+
+
+def test_readings_that_are_missing_leave_it_as_it_is() -> None:
+    way, _ = _rested(1.0)
+    time, column, known = _seen(way, 1)
+    column[7] = np.nan
+    signs = contracting(known)
+    np.testing.assert_array_equal(turned(signs, time, column, known).signs, signs)
