@@ -44,6 +44,8 @@ class Course:
     """Whether jaws that tell its contraction bend about an object."""
     listed: bool = False
     """Whether its recording lists settled points, with a counter for a clock."""
+    halts: tuple[slice, ...] = ()
+    """Stretches in which it is held amid its travel, while its pressure goes on."""
     slices: tuple[slice, ...] = (slice(None),)
     """Samples of each sweep."""
     start: float = 0.0
@@ -95,6 +97,7 @@ def joined(courses: Sequence[Course]) -> Course:
     if len(courses) == 1:
         return courses[0]
     ends = np.cumsum([len(course) for course in courses]).tolist()
+    starts = [0, *ends[:-1]]
     measured = dict.fromkeys(name for course in courses for name in course.measured)
     smooth = dict.fromkeys(name for course in courses for name in course.smooth)
     return Course(
@@ -123,10 +126,12 @@ def joined(courses: Sequence[Course]) -> Course:
         yields=any(course.yields for course in courses),
         bends=any(course.bends for course in courses),
         listed=is_table(courses),
-        slices=tuple(
-            slice(end - len(course), end)
-            for course, end in zip(courses, ends, strict=True)
+        halts=tuple(
+            slice(start + halt.start, start + halt.stop)
+            for course, start in zip(courses, starts, strict=True)
+            for halt in course.halts
         ),
+        slices=tuple(map(slice, starts, ends)),
         start=courses[0].start,
     )
 

@@ -12,6 +12,7 @@ from gripperd.diagnose.readings.command import as_commanded, stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
 from gripperd.diagnose.readings.frame import with_yielding_frame
+from gripperd.diagnose.readings.halts import halts
 from gripperd.diagnose.readings.length import wandering
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
@@ -81,7 +82,9 @@ def courses(
     listed = lists_points(found)
     told = zip(found, waiting(found), supply_drops(found), strict=True)
     return tuple(
-        replace(course, waiting=wait, supply_drop=drop, listed=listed)
+        replace(
+            course, waiting=wait, supply_drop=drop, listed=listed, halts=halts(course)
+        )
         for course, wait, drop in told
     ), noises
 

@@ -80,7 +80,7 @@ def late(course: Course) -> Mask:
     top = float(np.max(np.abs(pressure)))
     if np.ptp(pressure) < SWEPT * top:
         return found
-    ways = tuple(_ways(course, travel(pressure, SWINGS * top)))
+    ways = tuple(_ways(course, travel(pressure, SWINGS * top), top))
     if not any(way.is_followed for way in ways):
         return found
     turned = [way.gone(pressure)[-1] for way in ways if way.is_followed and way.start]
@@ -90,7 +90,7 @@ def late(course: Course) -> Mask:
         least = SAGGED if gone[-1] > STUCK * top else SWINGS
         sags = gone > least * top if way.start else np.ones_like(gone, dtype=bool)
         # A regulator that overshot and holds has turned nothing.
-        goes_on = gone[-1] > STUCK * top or _drives(pressure[way.rows])
+        goes_on = gone[-1] > STUCK * top or _drives(pressure[way.rows], top)
         if way.is_followed:
             found[way.rows] = sags
             found[way.end - 1] = False
@@ -118,7 +118,7 @@ class Way(NamedTuple):
         return np.asarray(np.abs(pressure[self.rows] - pressure[self.start]))
 
 
-def _ways(course: Course, sign: Array) -> Iterator[Way]:
+def _ways(course: Course, sign: Array, top: float) -> Iterator[Way]:
     pressure, contraction = course.level("pressure"), course.level("contraction")
     # A step has turned the pressure before the first sample behind it.
     ends = (turn - 1 for turn, _ in _legs(sign, 0, len(course)))
@@ -130,18 +130,18 @@ def _ways(course: Course, sign: Array) -> Iterator[Way]:
             continue
         end = turn + int(moved[0]) + 1
         # A smooth contraction sets out a little before its pressure does.
-        follows = gone[moved[0]] > 0 and _drives(pressure[turn : end + BRIEF])
+        follows = gone[moved[0]] > 0 and _drives(pressure[turn : end + BRIEF], top)
         yield Way(turn, end, is_moved=True, is_followed=bool(follows))
 
 
-def _drives(pressure: Array) -> bool:
+def _drives(pressure: Array, top: float) -> bool:
     """Whether a pressure goes on to the end of a stretch: what moves then follows it.
 
-    What moves when it has long stood still is moved by a machine.
+    What moves when it has long stood still, or hardly changed, is moved by a machine.
     """
     quarter = min(ceil(pressure.size / 4), pressure.size - 1)
     whole, last = (np.abs(pressure[-1] - pressure[at]) for at in (0, -1 - quarter))
-    return bool(last > DRIVING * whole)
+    return bool(whole > SAGGED * top and last > DRIVING * whole)
 
 
 def _followed(course: Course) -> float:

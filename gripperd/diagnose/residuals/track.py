@@ -165,9 +165,9 @@ def _of_opening(explanation: Explanation, course: Course, opening: Array) -> Arr
 def directions(explanation: Explanation, course: Course, *places: int) -> Array:
     """Direction of travel; before there was any, the sign of what it is held by."""
     found = course.direction.copy()
+    share = TURNED.get(explanation.at_rest, 0.0)
     for piece, place in zip(course.slices, places, strict=True):
         sign, known = explanation.rests.get(place, 1.0), found[piece]
-        share = TURNED.get(explanation.at_rest, 0.0)
         pressure = course.level("pressure")[piece]
         if known.any() or not (share and np.isfinite(pressure).all()):
             known[known == 0] = sign * (1 + explanation.stiction)
@@ -178,7 +178,19 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
             way, radius = pressure, turning(pressure, share)
         turned = stop(way, radius, way[:1] - sign * radius) / radius
         found[piece] = turned * (1 + explanation.stiction)
+    for halt in course.halts if share else ():
+        found[halt] = _halting(course.level("pressure")[halt], found[halt], share)
     return found
+
+
+def _halting(pressure: Array, came: Array, share: float) -> Array:
+    """Sign in a halt: as it came there, and from there on that of the pressure.
+
+    Until it travels the other way.
+    """
+    radius = turning(pressure, share)
+    turned = stop(pressure, radius, pressure[:1] - came[0] * radius) / radius
+    return np.where(came == came[0], turned, came)
 
 
 def _came(explanation: Explanation, course: Course, *places: int) -> Array:

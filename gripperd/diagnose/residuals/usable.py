@@ -173,9 +173,15 @@ def _inflating(course: Course) -> Mask:
     How much of it nobody knows, nor how far the pressure went between two readings, and
     back. What stands turns nothing.
     """
-    pressure, found = course.level("pressure"), np.zeros(len(course), dtype=bool)
-    if course.direction.any():
-        return found
+    found = np.zeros(len(course), dtype=bool)
+    halts = course.halts if course.direction.any() else (slice(0, len(course)),)
+    for halt in halts:
+        found[halt] = _turning_with(course.level("pressure")[halt])
+    return found
+
+
+def _turning_with(pressure: Array) -> Mask:
+    found = np.zeros(pressure.size, dtype=bool)
     way = 2 * turning(pressure, INFLATED[AtRest.INFLATING])
     sign = travel(pressure, way)
     turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)

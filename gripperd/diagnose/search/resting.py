@@ -161,9 +161,10 @@ def _beside(found: Found, listed: Sequence[Candidate]) -> Iterator[Rival]:
 
 
 def rests(problem: Problem) -> bool:
-    """Whether the force of any sweep without travel is explained."""
-    return any(
-        not problem.courses[block.course].direction.any()
+    """Whether the force of any sweep is explained that rests, or amid its travel."""
+    pulls = (
+        problem.courses[block.course]
         for block in problem.blocks
         if block.signal is Signal.FORCE
     )
+    return any(course.halts or not course.direction.any() for course in pulls)

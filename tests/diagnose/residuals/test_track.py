@@ -131,6 +131,31 @@ def test_it_turns_from_where_the_rig_came_over_a_way(
     np.testing.assert_allclose(signs[top + 2 * half :], -1.0)
 
 
+def test_where_it_halts_it_turns_with_the_pressure_until_it_travels_again() -> None:
+    plain = _courses(recording())["b"]
+    # There in 20 samples, up by 5 kPa a sample to 300 and back; and home from 170 on.
+    swept = 1e5 + 5e3 * np.interp(np.arange(200.0), [20, 60, 100], [0, 40, 0])
+    came = np.where(np.arange(200) < 170, 1.0, -1.0)
+    course = replace(
+        plain,
+        time=0.1 * np.arange(200.0),
+        step=np.full(200, 0.1),
+        measured={"pressure": swept},
+        smooth={},
+        direction=came,
+        halts=(slice(18, 175),),
+    )
+    np.testing.assert_array_equal(directions(MODEL, course, 0), came)
+    turning = replace(MODEL, at_rest=AtRest.INFLATING, rests={0: 0.3}, stiction=0.1)
+    signs = directions(turning, course, 0)
+    # Half the way is 3 kPa.
+    np.testing.assert_allclose(signs[:61], 1.0)
+    np.testing.assert_allclose(signs[62:170], -1.0)
+    np.testing.assert_allclose(signs[170:], -1.0)
+    again = replace(course, direction=np.abs(came))
+    np.testing.assert_allclose(directions(turning, again, 0)[175:], 1.0)
+
+
 def test_what_a_frame_holds_that_yields_turns_over_its_way() -> None:
     plain = _courses(recording())["b"]
     # Up by 5 um a metre each sample, to 500, and back.

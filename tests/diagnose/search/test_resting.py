@@ -103,6 +103,41 @@ def test_the_convention_that_the_data_support_is_taken(
     assert decided.model.at_rest is sign
 
 
+def _brought(*, turns: bool) -> Recording:
+    """Every sweep is brought to its length first, and inflated there.
+
+    Its strands turn round with the pressure, or stay as they came.
+    """
+    runs = []
+    for place, length in enumerate((0.05, 0.1, 0.15, 0.2)):
+        since, random = np.arange(0.0, 40.0, 0.2), np.random.default_rng([1, place])
+        moment = Moment(
+            time=since + 90.0 * place,
+            pressure=np.interp(since, [5, 20, 35], [100e3, 450e3, 100e3]),
+            contraction=np.interp(since, [1, 5], [0.0, length]),
+            direction=np.where(turns & (since > 20.0), -1.0, 1.0),
+        )
+        readings = {
+            "pressure": (moment.pressure, 1e3),
+            "contraction": (moment.contraction, 2e-4),
+            "force": (textbook(moment), 3.0),
+        }
+        noisy = {
+            name: column + random.normal(0.0, std, since.size)
+            for name, (column, std) in readings.items()
+        }
+        runs.append(Run(str(place), {"time": moment.time, **noisy}))
+    return Recording("brought", "0" * 64, tuple(runs))
+
+
+@pytest.mark.parametrize(
+    ("turns", "sign"), [(True, AtRest.INFLATING), (False, AtRest.CARRIED)]
+)
+def test_what_halts_amid_its_travel_tells_as_well(sign: AtRest, *, turns: bool) -> None:
+    _, decided = _decided(_brought(turns=turns))
+    assert decided.model.at_rest is sign
+
+
 def _framed(radius: float) -> Recording:
     """Held by a frame that gives 0.25 % at the top; strands stick over so much."""
     told = recording(nothing)
