@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 
 from gripperd.diagnose.noise.smoothing import Smooth
-from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.recording import Kind
 from gripperd.model.track import Array
 
@@ -84,12 +83,6 @@ class Course:
         return (
             self.smooth[name].rate if name in self.smooth else np.zeros_like(self.time)
         )
-
-    @cached_property
-    def resting(self) -> Mask:
-        """Samples of sweeps without travel."""
-        directions = [self.direction[run] for run in self.slices]
-        return np.concatenate([np.full(d.size, not d.any()) for d in directions])
 
 
 def joined(courses: Sequence[Course]) -> Course:

@@ -229,18 +229,19 @@ def passed_on(
     """What smooth inputs leave out of a prediction: noise, and sharp corners.
 
     It belongs to the residual as the noise it is. Left inside the prediction, any
-    effect that filters its input would seem to explain it. Where nothing travels, an
-    opening is compared with the contraction reading by reading: a mean is quieter than
-    any way, and no noise would fit both. So is a grip with the force: a smooth force
-    lags where jaws meet and leave an object, as friction in the joints does, and its
-    noise would be as slow as an effect.
+    effect that filters its input would seem to explain it. An opening is compared with
+    the contraction reading by reading: a trend is quieter the slower the jaws go, and
+    no noise would fit them all. So is a grip with the force: a smooth force lags where
+    jaws meet and leave an object, as friction in the joints does, and its noise would
+    be as slow as an effect.
     """
     if signal is Signal.PRESSURE:
         return 0.0
     length = "length" if "length" in course.smooth else "contraction"
     sharp = replace(track, contraction=course.level(length))
     if signal is Signal.OPENING:
-        read = np.where(course.resting, course.column("contraction"), sharp.contraction)
+        column = course.column("contraction")
+        read = np.where(np.isfinite(column), column, sharp.contraction)
         sharp = replace(track, contraction=read)
     if signal is Signal.GRIP:
         beside = course.column("force") - course.level("force")

@@ -446,15 +446,19 @@ def test_a_noisy_force_is_passed_on_to_nothing_but_the_grip() -> None:
     assert sharp < 1e-6
 
 
-def test_at_rest_an_opening_is_compared_with_the_contraction_reading_by_reading() -> (
-    None
-):
-    still = np.full(401, 0.05)
-    told = run(contraction=still + noise(401, 5e-4), opening=0.085 - 4 * 0.25 * still)
+@pytest.mark.parametrize(
+    "strokes", [pytest.param(n, id=f"{n} strokes") for n in (0, 1, 4, 12)]
+)
+def test_an_opening_is_compared_with_the_contraction_reading_by_reading(
+    strokes: int,
+) -> None:
+    way = 0.05 - 0.05 * np.cos(np.linspace(0.0, 2 * np.pi * strokes, 401))
+    told = run(contraction=way + noise(401, 5e-4), opening=0.085 - 4 * 0.25 * way)
     (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    assert course.direction.any() == (strokes > 0)
     track = track_of(JAWED, course, 0)
     passed = passed_on(JAWED, course, track, Signal.OPENING)
     compared = _one(JAWED, course, Signal.OPENING) + passed
-    # The noise of the contraction times four rest lengths.
+    # The noise of the contraction times four rest lengths, however fast the jaws go.
     off = np.std(compared - course.column("opening"))
     assert off == pytest.approx(4 * 0.25 * 5e-4, rel=0.1)
