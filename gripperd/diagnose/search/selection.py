@@ -71,7 +71,9 @@ def selected(
     if (other := with_vented_zero(found)) is not found.problem:
         found = searched(other)
     found = with_quick_regulator(found, searched)
-    found = with_rests_alike(found, searched)
+    if (alike := with_rests_alike(found, searched)) is not found:
+        # What signs of their own stood in for is found now, and stands beside another.
+        found = with_sign_beside(alike, listed, searched)
     train = replace(train, model=found.problem.model, constants=found.problem.constants)
     test = replace(
         parts.test,

@@ -9,6 +9,7 @@ from gripperd.diagnose.fit.inflation import louder
 from gripperd.diagnose.residuals.constants import RESTING
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search import selection
 from gripperd.diagnose.search.alike import with_rests_alike
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.resting import DECIDED
@@ -139,3 +140,20 @@ def test_what_is_left_out_is_held_against_the_same_signs() -> None:
     assert told.parts.test.constants == told.parts.train.constants
     # Of all that rest but "c" is left out, and may rest as it likes.
     assert [path for path, one in sigma.items() if one == RESTING] == ["rest.4"]
+
+
+@pytest.mark.parametrize(("fades", "times"), [(1e-6, 2), (0.0, 1)])
+def test_what_is_found_so_is_held_against_other_signs_at_rest(
+    monkeypatch: pytest.MonkeyPatch, fades: float, times: int
+) -> None:
+    """As a pull that tires, which signs of their own had stood in for."""
+    asked: list[tuple[str, ...]] = []
+
+    def beside(found: Found, *_: object) -> Found:
+        asked.append(found.best.names)
+        return found
+
+    monkeypatch.setattr(selection, "with_sign_beside", beside)
+    rng = np.random.default_rng(0)
+    selected(split(_problem(_turned(fades))), [FIRST], {}, rng, lambda *_: None)
+    assert asked == [(), ("first_cycle",)][:times]
