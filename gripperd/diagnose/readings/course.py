@@ -41,6 +41,8 @@ class Course:
     """Whether it is held by a frame that yields."""
     bends: bool = False
     """Whether jaws that tell its contraction bend about an object."""
+    clamped: bool = False
+    """Whether jaws hold an object by joints that never come loose, and others do."""
     listed: bool = False
     """Whether its recording lists settled points, with a counter for a clock."""
     halts: tuple[slice, ...] = ()

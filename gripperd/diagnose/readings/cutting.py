@@ -8,6 +8,7 @@ import numpy as np
 
 from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
 from gripperd.diagnose.noise.smoothing import Smooth
+from gripperd.diagnose.readings.clamped import clamped
 from gripperd.diagnose.readings.command import as_commanded, stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cycle import cycles
@@ -80,13 +81,14 @@ def courses(
     if "contraction" in noises:
         found = with_yielding_frame(found, noises["contraction"])
     listed = lists_points(found)
-    told = zip(found, waiting(found), supply_drops(found), strict=True)
+    told = zip(found, waiting(found), supply_drops(found), clamped(found), strict=True)
     return tuple(
         replace(
-            course, waiting=wait, supply_drop=drop, listed=listed, halts=halts(course)
+            course, waiting=wait, supply_drop=drop, clamped=clamps, listed=listed,
+            halts=halts(course),
         )
-        for course, wait, drop in told
-    ), noises
+        for course, wait, drop, clamps in told
+    ), noises  # fmt: skip
 
 
 def _noises(

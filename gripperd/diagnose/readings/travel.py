@@ -31,6 +31,8 @@ STUCK = 0.06
 """Half the way back, as a share of the range of the load, in which joints stick. [-]"""
 STEADY = 0.01
 """The same of the load itself: a steady one turns nothing. [-]"""
+LOOSE = 0.98
+"""Sign of friction from which joints that stuck have come loose. [-]"""
 
 
 def leaning(load: Array) -> Array:

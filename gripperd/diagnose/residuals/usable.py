@@ -9,7 +9,13 @@ from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.grasp import PRESSED
 from gripperd.diagnose.readings.leap import leaps
-from gripperd.diagnose.readings.travel import leaning, noticed, reversal, travel
+from gripperd.diagnose.readings.travel import (
+    LOOSE,
+    leaning,
+    noticed,
+    reversal,
+    travel,
+)
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.stages import INPUTS
 from gripperd.diagnose.residuals.sticking import late, stuck
@@ -38,8 +44,6 @@ TURNED = 0.1
 
 STANDS = 0.2
 """The same within which a pressure that has turned may as well stand. [-]"""
-LOOSE = 0.98
-"""Sign of friction from which joints that stuck have come loose. [-]"""
 
 
 def usable(course: Course, signal: Signal) -> Mask:
@@ -86,8 +90,8 @@ def _pressing(course: Course) -> Mask:
     good = course.column("grip") > PRESSED * course.hush("grip")
     name = "pressure" if course.is_blind else "force"
     good &= np.isfinite(course.column(name)) & np.isfinite(course.level(name))
-    if not good.any():
-        return good
+    if course.clamped or not good.any():
+        return np.zeros_like(good)
     sign = leaning(course.level(name))
     apart = np.sign(sign) != course.direction
     turning = _turning(sign) | (apart & _reversals(course))
