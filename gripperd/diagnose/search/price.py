@@ -100,8 +100,13 @@ def worth(
 def _is_visible(
     problem: Problem, best: Rival, larger: Rival, new: Sequence[Candidate]
 ) -> bool:
-    """Whether readings see what is new: beside the best, or each where it is gone."""
-    if {*best.names} <= {*larger.names}:
+    """Whether readings see what is new: beside the best, or each where it is gone.
+
+    Where nothing else acts it is the first, and as visible as it is by itself.
+    """
+    gained = _gained(problem, best, larger)
+    is_first = not any(acts_on(problem, one) & gained for one in best.candidates)
+    if {*best.names} <= {*larger.names} and not is_first:
         return _change(problem, best.fit.point, larger.fit.point) >= SEEN
     sizes = (size_of(problem, larger, [o.name], problem.signals) for o in new)
     return all(size >= SEEN for size in sizes)

@@ -98,6 +98,19 @@ def test_an_effect_that_changes_no_reading_is_not_worth_its_price(
     assert worth(problem, null, null, best, 20.0) is seen
 
 
+@pytest.mark.parametrize(("first", "seen"), [(GIVES_MORE, True), (RUB, False)])
+def test_the_first_that_acts_somewhere_is_as_visible_as_it_is_by_itself(
+    first: Candidate, *, seen: bool
+) -> None:
+    """Of 12 N constants take all but 2; beside friction these may mend its form."""
+    told = recording(lambda m: 12.0 + rubbing(12.0)(m) * (first is RUB), noise=0.1)
+    if first is GIVES_MORE:
+        told = altered(told, moments(), "current", lambda c: 0.004 + (c - 0.004) / 1.05)
+    problem, (null, best, larger) = _fits(told, first, BIAS)
+    assert larger.evidence - best.evidence > 100.0
+    assert worth(problem, null, best, larger, 20.0) is seen
+
+
 @pytest.mark.parametrize(("weaker", "seen"), [(0.021, True), (0.003, False)])
 def test_two_that_one_other_imitates_are_each_held_against_the_readings(
     weaker: float, *, seen: bool
