@@ -37,16 +37,6 @@ class Turned(NamedTuple):
     """Samples before or after a turn, nobody knows which."""
 
 
-class Rest(NamedTuple):
-    """The likeliest rest between two ways."""
-
-    misfit: float
-    """Sum of squares. [of the column, squared]"""
-    begins: float
-    ends: float
-    """[s]"""
-
-
 class Left(NamedTuple):
     """When a way leaves its rest."""
 
@@ -103,18 +93,23 @@ def _left(time: Array, way: Array, variance: float) -> Left | None:
     if count < FEWEST:
         return None
     t, y = (one[: count * share].reshape(count, share).mean(1) for one in (time, way))
-    rest = _likeliest(t, y, t, t, 1)
-    misfit = min(_likeliest(t, y, one, one, 2).misfit for one in t[1:-1, None])
+    straight, rounded = (_misfits(t, y, t, t, power) for power in (1, 2))
+    begins, ends = np.unravel_index(int(np.argmin(straight)), straight.shape)
+    rest, turn = float(straight[begins, ends]), float(rounded.diagonal().min())
     noise = variance / share
-    if min(rest.misfit, misfit) > FOREIGN * count * noise:
+    if min(rest, turn) > FOREIGN * count * noise:
         return None
-    near = time[np.abs(time - rest.ends) <= float(np.diff(t).max())]
-    exact = _likeliest(time, way, np.array([rest.begins]), near, 1)
-    return Left(exact.ends, 0.5 * (misfit - rest.misfit) / noise)
+    near = time[np.abs(time - t[ends]) <= float(np.diff(t).max())]
+    exact = int(np.argmin(_misfits(time, way, t[[begins]], near, 1)))
+    return Left(float(near[exact]), 0.5 * (turn - rest) / noise)
 
 
-def _likeliest(time: Array, way: Array, begins: Array, ends: Array, power: int) -> Rest:
-    """Fit a rest between two ways that come and go with a power of the time."""
+def _misfits(time: Array, way: Array, begins: Array, ends: Array, power: int) -> Array:
+    """Sum of squares that each rest leaves, shape ``(begins, ends)``.
+
+    Ways come there and go with a power of the time; without a rest where it ends as it
+    begins. What is no turn leaves infinitely much.
+    """
     came = np.maximum(begins[:, None] - time, 0.0) ** power
     went = np.maximum(time - ends[:, None], 0.0) ** power
     came, went = (one - one.mean(axis=1, keepdims=True) for one in (came, went))
@@ -126,6 +121,4 @@ def _likeliest(time: Array, way: Array, begins: Array, ends: Array, power: int) 
         back = (of_other * one - of_one * both) / (one * other - both**2)
         misfit = off @ off - (steep * of_one + back * of_other)
     is_turn = (begins[:, None] <= ends[None, :]) & (steep < 0) & (back < 0)
-    misfit = np.where(is_turn & np.isfinite(misfit), misfit, np.inf)
-    i, j = np.unravel_index(int(np.argmin(misfit)), misfit.shape)
-    return Rest(float(misfit[i, j]), float(begins[i]), float(ends[j]))
+    return np.where(is_turn & np.isfinite(misfit), misfit, np.inf)
