@@ -33,8 +33,8 @@ def outlives_control(daemon: Daemon, fault: dict[str, str]) -> None:
     first = children(daemon.process)["control"]
     os.kill(first, signal.SIGKILL)
     until(lambda: children(daemon.process).get("control", first) != first)
-    until(lambda: fault["id"][:8] in said(daemon, "status").stdout)
-    assert said(daemon, "status").stdout.startswith("g0: fault, holding")
+    until(lambda: said(daemon, "status").stdout.startswith("g0: fault, holding"))
+    assert fault["id"][:8] in said(daemon, "status").stdout
     history = f"{daemon.url}/v1/history?kind=adoption"
     told = f"adopted a latched fault: {fault['cause']}: {fault['message']}"
     until(lambda: told in httpx.get(history, timeout=PATIENCE).text)
