@@ -80,10 +80,20 @@ def test_a_way_back_that_halts_is_another_shape() -> None:
     assert not told.unsure.any()
 
 
+def test_of_a_few_readings_no_rest_is_told() -> None:
+    ends = np.array([10, 15, 17, 22, 32])
+    way = np.interp(np.arange(32), ends, [0.0, 0.1, 0.1, 0.0, 0.0])
+    plain, told = _told(way, 1)
+    assert _turns(plain).size > 0
+    np.testing.assert_array_equal(told.signs, plain)
+    assert not told.unsure.any()
+
+
 def test_without_noise_there_is_nothing_to_mend() -> None:
-    way, _ = _rested(1.0)
-    time = STEP * np.arange(float(way.size))
-    signs = np.where(time < 13.5, 1.0, -1.0)
+    there = 1e-3 * np.arange(6.0)
+    way = np.concatenate([there, np.full(4, there[-1]), there[::-1]])
+    time = np.arange(float(way.size))
+    signs = np.where(time < 7, 1.0, -1.0)
     told = turned(signs, time, way, Smooth(way, 0.0 * way))
     np.testing.assert_array_equal(told.signs, signs)
 
