@@ -16,10 +16,10 @@ from gripperd.model.effect import (
 
 
 class AtRest(StrEnum):
-    """Sign of dry friction in a sweep without travel: the model leaves it open."""
+    """Sign of dry friction where nothing travels: the model leaves it open."""
 
     CARRIED = "carried"
-    """As the rig came there: unknown, but the same throughout the sweep."""
+    """As the rig came there: in a sweep without travel unknown, but one throughout."""
     INFLATING = "inflating"
     """It turns with the pressure."""
     YIELDING = "yielding"

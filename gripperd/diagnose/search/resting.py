@@ -1,4 +1,4 @@
-"""Sign of dry friction in sweeps without travel: which convention the data support.
+"""Sign of dry friction where nothing travels: which convention the data support.
 
 At rest the friction of eq. (7) is set-valued, and a rig may have come to rest either
 way. A wrong sign would look like an effect.
