@@ -137,15 +137,18 @@ def _missed(course: Course, name: str) -> Mask:
 
 
 def _turning(sign: Array) -> Mask:
-    """Samples while friction turns round: which way the joints rub is not known."""
-    loose = np.flatnonzero(np.abs(sign) > LOOSE)
-    if not loose.size:
+    """Samples while friction turns round: which way the joints rub is not known.
+
+    Nor is it where their load went more than half the way that turns it, and came back.
+    """
+    loose = np.abs(sign) > LOOSE
+    if not loose.any():
         return np.zeros(sign.size, dtype=bool)
-    index = np.arange(sign.size)
-    after = np.minimum(np.searchsorted(loose, index), loose.size - 1)
-    before = np.maximum(np.searchsorted(loose, index, side="right") - 1, 0)
-    turning = np.sign(sign[loose[before]]) != np.sign(sign[loose[after]])
-    return binary_dilation(turning | (index < loose[0]), iterations=2)
+    # Of each sample the last that was loose; joints begin with no sign at all.
+    since = np.maximum.accumulate(np.where(loose, np.arange(sign.size), -1))
+    away = np.sign(sign) != np.sign(sign[since])
+    turned = np.bincount(since + 1, weights=away) > 0
+    return binary_dilation(turned[since + 1] & ~loose, iterations=2)
 
 
 def _reversals(course: Course) -> Mask:

@@ -534,6 +534,33 @@ def test_while_friction_turns_round_the_grip_says_nothing() -> None:
     assert bad.tolist() == [*range(14), *range(199, 226)]
 
 
+@pytest.mark.parametrize(("back", "unsure"), [(25.0, False), (35.0, True)])
+def test_nor_does_it_where_friction_may_have_turned_and_come_back(
+    back: float, *, unsure: bool
+) -> None:
+    # Joints stick within 30 of 500 N: more than that back may have turned them round.
+    corners = [300.0, 800.0, 800.0 - back, 800.0, 300.0]
+    way = np.cumsum([0.0, *np.abs(np.diff(corners))])
+    force = np.interp(np.arange(0.0, way[-1], 2.5), way, corners)
+    told = run(grip=force / 4, force=force, contraction=np.full(force.size, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    smooth = {**course.smooth, "force": Smooth(force, np.gradient(force))}
+    good = usable(replace(course, smooth=smooth), Signal.GRIP)
+    dip = slice(203, 200 + round(2 * back / 2.5) - 3)
+    assert np.all(good[dip] != unsure)
+    assert good[100:198].all()
+
+
+def test_until_joints_have_come_loose_the_grip_says_nothing() -> None:
+    force = np.linspace(300.0, 800.0, 201)
+    told = run(grip=force / 4, force=force, contraction=np.full(201, 0.1))
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    smooth = {**course.smooth, "force": Smooth(force, np.gradient(force))}
+    bad = np.flatnonzero(~usable(replace(course, smooth=smooth), Signal.GRIP))
+    # 2.5 N a sample: 29.4 N, and two samples beside.
+    assert bad.tolist() == list(range(14))
+
+
 def test_where_the_way_turns_round_but_not_the_load_the_grip_says_nothing() -> None:
     """Joints may rub as they came, and nobody knows where in a dwell they turn."""
     force = np.linspace(300.0, 800.0, 401)
