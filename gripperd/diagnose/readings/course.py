@@ -35,6 +35,8 @@ class Course:
     """Time since the command last moved. [s]"""
     waiting: Array
     """The same, 0 where a regulator is taken to keep the pressure. [s]"""
+    rested: Array
+    """Time since it came to rest where a machine holds it, 0 anywhere else. [s]"""
     on_stairs: bool = False
     """Whether the pressure of its recording goes in stairs, which no trend follows."""
     yields: bool = False
@@ -117,6 +119,7 @@ def joined(courses: Sequence[Course]) -> Course:
         direction=np.concatenate([course.direction for course in courses]),
         still=np.concatenate([course.still for course in courses]),
         waiting=np.concatenate([course.waiting for course in courses]),
+        rested=np.concatenate([course.rested for course in courses]),
         on_stairs=any(course.on_stairs for course in courses),
         yields=any(course.yields for course in courses),
         bends=any(course.bends for course in courses),

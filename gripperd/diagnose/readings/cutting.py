@@ -17,6 +17,7 @@ from gripperd.diagnose.readings.halts import halts
 from gripperd.diagnose.readings.length import wandering
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
+from gripperd.diagnose.readings.rested import rested
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.stairs import Sweep, noise_at_rest, noise_on_stairs
@@ -85,7 +86,7 @@ def courses(
     return tuple(
         replace(
             course, waiting=wait, supply_drop=drop, clamped=clamps, listed=listed,
-            halts=halts(course),
+            halts=halts(course), rested=rested(course),
         )
         for course, wait, drop, clamps in told
     ), noises  # fmt: skip
@@ -143,7 +144,7 @@ def _course(
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,
-        direction, still, still, on_stairs, start=start,
+        direction, still, still, 0.0 * time, on_stairs, start=start,
     )  # fmt: skip
 
 

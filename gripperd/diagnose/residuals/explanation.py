@@ -41,6 +41,9 @@ class Explanation:
     winding: float = 0.0
     """Half the way back of what a frame that yields holds, which turns its friction
     round; 0 where its pressure does. [-]"""
+    fading: float = 0.0
+    """Time in which what rubs nears nothing by e where it rests; 0 where it keeps its
+    sign. [s]"""
     zeros: Mapping[Signal, float] = field(default_factory=dict)
     """Small zero errors of sensors, within what any sensor has. [SI]"""
     rests: Mapping[int, float] = field(default_factory=dict)

@@ -180,6 +180,8 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
         found[piece] = turned * (1 + explanation.stiction)
     for halt in course.halts if share else ():
         found[halt] = _halting(course.level("pressure")[halt], found[halt], share)
+    if explanation.fading:
+        found *= np.exp(-course.rested / explanation.fading)
     return found
 
 

@@ -9,6 +9,7 @@ from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.grasp import PRESSED
 from gripperd.diagnose.readings.leap import leaps
+from gripperd.diagnose.readings.sticking import late, stuck
 from gripperd.diagnose.readings.travel import (
     LOOSE,
     leaning,
@@ -18,7 +19,6 @@ from gripperd.diagnose.readings.travel import (
 )
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.stages import INPUTS
-from gripperd.diagnose.residuals.sticking import late, stuck
 from gripperd.diagnose.residuals.track import TURNED as INFLATED
 from gripperd.diagnose.residuals.track import turning
 from gripperd.model.effect import Signal

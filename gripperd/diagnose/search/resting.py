@@ -26,6 +26,8 @@ DECIDED = 5.0
 """By so much another convention must be better. [nat]"""
 WINDINGS = (1e-4, 1.4e-4, 2e-4, 2.8e-4, 4e-4, 5.7e-4, 8e-4)
 """Ways tried by which a frame must yield for friction to turn half round. [-]"""
+FADINGS = (0.1, 0.4, 1.6)
+"""Times tried in which friction fades at rest: at once, or as rubber gives in. [s]"""
 BRAID = WRONG + "muscle.friction_coefficient"
 STAND_INS = (BRAID, "pressure_hysteresis")
 """What may be found instead of a sign."""
@@ -72,7 +74,9 @@ def _evidence(problem: Problem, few: Sequence[Candidate]) -> float:
 
 def _lead(best: Problem, tried: Problem) -> float:
     """By how much another sign must be better; by none if but its way is another."""
-    return 0.0 if best.model.winding and tried.model.winding else DECIDED
+    winds = best.model.winding and tried.model.winding
+    fades = best.model.fading and tried.model.fading
+    return 0.0 if winds or fades else DECIDED
 
 
 def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
@@ -84,11 +88,25 @@ def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
     model = problem.model
     yields = any(course.yields for course in problem.courses)
     for sign in TURNED if yields else AtRest:
-        if sign is not model.at_rest and (rubs or sign is not AtRest.BLADDER):
-            yield replace(problem, model=replace(model, at_rest=sign, winding=0.0))
+        if sign is model.at_rest and not model.fading:
+            continue
+        if rubs or sign is not AtRest.BLADDER:
+            held = replace(model, at_rest=sign, winding=0.0, fading=0.0)
+            yield replace(problem, model=held)
     for winding in WINDINGS if yields else ():
         if winding != model.winding:
-            yield replace(problem, model=replace(model, winding=winding))
+            yield replace(problem, model=replace(model, winding=winding, fading=0.0))
+
+
+def _fading(problem: Problem) -> Iterator[Problem]:
+    """Give the problem with friction that fades at rest, as fast as it may.
+
+    It is asked beside what was found alone: what creeps fast looks alike at first.
+    """
+    model = replace(problem.model, at_rest=AtRest.CARRIED, winding=0.0)
+    for fading in FADINGS:
+        if fading != problem.model.fading:
+            yield replace(problem, model=replace(model, fading=fading))
 
 
 def with_sign_beside(
@@ -115,7 +133,7 @@ def with_sign_beside(
         return found
     best, most = problem, here.evidence
     near, nearest, likely = problem, -np.inf, -np.inf
-    for tried in _others(problem, rubs=True):
+    for tried in (*_others(problem, rubs=True), *_fading(problem)):
         fits = list(_beside(replace(found, problem=tried), listed))
         told = max(one.evidence for one in fits)
         # Beside what stands in for it every sign is alike.

@@ -18,6 +18,7 @@ from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.command import stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.recording import Kind, Run
+from gripperd.diagnose.readings.rested import rested
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.verdict.key import plain
@@ -173,12 +174,13 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
     }
     still = stillness(Run(sweep.title, {**columns, "time": sweep.time}, sweep.kind))
     nothing = np.full_like(sweep.time, np.nan)
-    return Course(
+    planned = Course(
         sweep.title, sweep.kind, sweep.time + end, np.diff(sweep.time, prepend=0.0),
         columns, smooth, problem.courses[-1].cycle[-1] + 1 + 0 * sweep.time, nothing,
         0 * sweep.time, contracting(smooth["contraction"]), still, still,
-        start=known.start,
+        0 * sweep.time, start=known.start,
     )  # fmt: skip
+    return replace(planned, rested=rested(planned))
 
 
 def _reach(problem: Problem, told: Rival) -> tuple[float, float]:

@@ -156,6 +156,28 @@ def test_where_it_halts_it_turns_with_the_pressure_until_it_travels_again() -> N
     np.testing.assert_allclose(directions(turning, again, 0)[175:], 1.0)
 
 
+def test_where_it_rests_it_may_fade() -> None:
+    plain = _courses(recording())["d"]
+    # At rest from the start, on the way from 1 s on, and at rest again from 3 s on.
+    time = 0.1 * np.arange(60.0)
+    rest = np.where(time < 1.0, time, np.maximum(time - 3.0, 0.0))
+    course = replace(
+        plain,
+        time=time,
+        step=np.full(60, 0.1),
+        measured={},
+        smooth={},
+        direction=np.where(time < 1.0, 0.0, -1.0),
+        rested=rest,
+    )
+    fading = replace(MODEL, fading=0.5, rests={0: 0.8})
+    signs = directions(fading, course, 0)
+    np.testing.assert_allclose(signs[:10], 0.8 * np.exp(-2.0 * time[:10]))
+    np.testing.assert_allclose(signs[10:31], -1.0)
+    np.testing.assert_allclose(signs[35], -np.exp(-1.0))
+    np.testing.assert_allclose(signs[50], -np.exp(-4.0))
+
+
 def test_what_a_frame_holds_that_yields_turns_over_its_way() -> None:
     plain = _courses(recording())["b"]
     # Up by 5 um a metre each sample, to 500, and back.

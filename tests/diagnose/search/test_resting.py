@@ -16,6 +16,7 @@ from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model.effect import Signal
@@ -334,6 +335,55 @@ def test_a_rod_that_is_known_to_rub_may_stay_where_the_bladder_slides() -> None:
 
 def _shifted(time: Array, force: Array) -> Array:
     return np.interp(time - 0.3, time, force)
+
+
+def _stairs(*, fades: bool, creeps: float = 0.0) -> Recording:
+    """Lengths and pressures in stairs, and friction that fades in a second, or stays.
+
+    What creeps, in N, goes by e in 3 s after each stair of pressure.
+    """
+    runs = []
+    steps = np.array([0.0, 3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 24.0])
+    stairs = np.array([0.0, 0.5, 0.5, 1.0, 1.0, 0.4, 0.4, 0.0, 0.0])
+    held = (("a", 0.02), ("b", 0.08), ("c", 0.14))
+    since = np.arange(0.0, 24.0, 0.1)
+    stair = np.interp(since, steps, stairs)
+    plans = [(n, 150e3 + 300e3 * stair, np.full(since.size, h)) for n, h in held]
+    plans += [(n, np.full(since.size, p), 0.16 * stair) for n, p in
+              (("d", 200e3), ("e", 300e3), ("f", 400e3))]  # fmt: skip
+    for place, (name, pressure, way) in enumerate(plans):
+        random = np.random.default_rng([7, place])
+        went = np.gradient(way) != 0
+        sign, late, signs, lag = 1.0, pressure[0], [], []
+        for goes, up, now in zip(went, np.gradient(way) > 0, pressure, strict=True):
+            sign = (1.0 if up else -1.0) if goes else sign * np.exp(-0.1 * fades)
+            late += (now - late) * -np.expm1(-0.1 / 3.0)
+            signs.append(sign)
+            lag.append(now - late)
+        moment = Moment(since + 90.0 * place, pressure, way, np.array(signs))
+        force = textbook(moment) + creeps * np.array(lag) / 300e3
+        readings = {
+            "pressure": (pressure, 1e3),
+            "contraction": (way, 2e-4),
+            "force": (force, 3.0),
+        }
+        noisy = {
+            name: column + random.normal(0.0, std, since.size)
+            for name, (column, std) in readings.items()
+        }
+        runs.append(Run(name, {"time": moment.time, **noisy}))
+    return Recording("stairs", "0" * 64, tuple(runs))
+
+
+@pytest.mark.parametrize(("fades", "fading"), [(True, (0.4, 1.6)), (False, (0.0,))])
+def test_what_seems_to_creep_may_be_friction_that_fades_at_rest(
+    fading: tuple[float, ...], *, fades: bool
+) -> None:
+    problem = problem_of(_stairs(fades=fades, creeps=0.0 if fades else 40.0), MODEL, {})
+    creeping = Candidate("creep", Creep())
+    decided = _beside(problem, creeping)
+    assert decided.model.fading in fading
+    assert decided.model.at_rest is AtRest.CARRIED
 
 
 def test_nothing_else_of_the_problem_changes() -> None:

@@ -74,15 +74,11 @@ def late(course: Course) -> Mask:
     muscle needed to follow other times, or as muscles need.
     """
     found = np.zeros(len(course), dtype=bool)
-    pressure = course.level("pressure")
-    if not np.isfinite(pressure).all() or not course.direction.any():
-        return found
-    top = float(np.max(np.abs(pressure)))
-    if np.ptp(pressure) < SWEPT * top:
-        return found
-    ways = tuple(_ways(course, travel(pressure, SWINGS * top), top))
+    ways = _free_ways(course)
     if not any(way.is_followed for way in ways):
         return found
+    pressure = course.level("pressure")
+    top = float(np.max(np.abs(pressure)))
     turned = [way.gone(pressure)[-1] for way in ways if way.is_followed and way.start]
     enough = median(turned) if turned else STICKS * top
     for way in ways:
@@ -97,6 +93,11 @@ def late(course: Course) -> Mask:
         elif not way.is_moved and goes_on:
             found[way.rows] = sags & (gone < enough)
     return binary_dilation(found, iterations=2)
+
+
+def is_free(course: Course) -> bool:
+    """Whether a muscle follows its pressure anywhere, and no machine moves it."""
+    return any(way.is_followed for way in _free_ways(course))
 
 
 class Way(NamedTuple):
@@ -116,6 +117,17 @@ class Way(NamedTuple):
     def gone(self, pressure: Array) -> Array:
         """How far the pressure has gone since it turned. [Pa]."""
         return np.asarray(np.abs(pressure[self.rows] - pressure[self.start]))
+
+
+def _free_ways(course: Course) -> tuple[Way, ...]:
+    """Ways of a pressure that a muscle may follow; none where it hardly goes."""
+    pressure = course.level("pressure")
+    if not np.isfinite(pressure).all() or not course.direction.any():
+        return ()
+    top = float(np.max(np.abs(pressure)))
+    if np.ptp(pressure) < SWEPT * top:
+        return ()
+    return tuple(_ways(course, travel(pressure, SWINGS * top), top))
 
 
 def _ways(course: Course, sign: Array, top: float) -> Iterator[Way]:
