@@ -21,6 +21,7 @@ from gripperd.diagnose.readings.rested import rested
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.stairs import Sweep, noise_at_rest, noise_on_stairs
+from gripperd.diagnose.readings.steady import noise_held
 from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.table import lists_points
 from gripperd.diagnose.readings.travel import JAWS, STILL, contracting
@@ -111,6 +112,8 @@ def _noises(
         if sweep.has("current") and sweep.has("pressure")
     ]
     stepped, rest = noise_on_stairs(regulated), noise_at_rest(regulated)
+    if not regulated:
+        rest = noise_held(readings.get("pressure", []))
     if stepped:
         noises["pressure"] = stepped
     elif rest and rest.slow_variance < noises["pressure"].slow_variance:
