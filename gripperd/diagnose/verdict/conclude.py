@@ -9,6 +9,7 @@ from gripperd.diagnose.residuals.holdout import FEW
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.verdict.burst import bursts
 from gripperd.diagnose.verdict.gap import REACHED, Gap
 from gripperd.diagnose.verdict.structure import WANDERS, Structure, loudness, structures
 from gripperd.model.effect import Signal
@@ -56,6 +57,8 @@ class Conclusion:
     """What is left with the best constants alone."""
     louder: Mapping[Signal, float] = field(default_factory=dict)
     """Times the noise that is left of a signal, if that is too much for noise. [-]"""
+    bursts: Mapping[Signal, int] = field(default_factory=dict)
+    """How often a signal is far off for a while, if it is so again and again."""
     left_out: Mapping[Signal, float] = field(default_factory=dict)
     """Times what can be reached that a signal is off in what took no part, if nothing
     is missing in what did. [-]"""
@@ -64,7 +67,12 @@ class Conclusion:
     def signals(self) -> tuple[Signal, ...]:
         """Those in which more than noise is left."""
         structured = (one.signal for one in _remaining(self.left))
-        return tuple(dict.fromkeys((*structured, *self.louder, *self.left_out)))
+        return tuple(dict.fromkeys((*structured, *self.odd, *self.left_out)))
+
+    @property
+    def odd(self) -> tuple[Signal, ...]:
+        """Those in which what is left is no noise, in whatever order it is."""
+        return (*self.louder, *self.bursts)
 
 
 def conclude(
@@ -89,15 +97,17 @@ def conclude(
     share = min(_share(before, after, each) for each in (None, *plain))
     is_open = bool(remaining) and share < EXPLAINED
     louder = _louder(problem, contest.best.fit)
+    often = bursts(problem, problem.residuals(contest.best.fit.point))
     if not contest.best.candidates:
-        verdict = Verdict.UNEXPLAINED if remaining or louder else Verdict.NONE
+        is_odd = remaining or louder or often
+        verdict = Verdict.UNEXPLAINED if is_odd else Verdict.NONE
     elif is_near or contest.best.is_misnamed or is_open:
         verdict = Verdict.UNEXPLAINED
     elif any(contest.equivalents):
         verdict = Verdict.AMBIGUOUS
     else:
         verdict = Verdict.NAMED
-    return Conclusion(verdict, after, share, before, louder)
+    return Conclusion(verdict, after, share, before, louder, often)
 
 
 def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
@@ -113,7 +123,7 @@ def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:
     """
     if not conclusion.verdict.establishes:
         return conclusion
-    remains = is_open or bool(_remaining(conclusion.before)) or bool(conclusion.louder)
+    remains = is_open or bool(_remaining(conclusion.before)) or bool(conclusion.odd)
     verdict = Verdict.UNEXPLAINED if remains else Verdict.NONE
     return replace(conclusion, verdict=verdict)
 

@@ -53,6 +53,9 @@ def signature(
         if signal in conclusion.louder:
             times = conclusion.louder[signal]
             words.append(f"{signal.value}: {times:.1f} times as loud as its noise")
+        if signal in conclusion.bursts:
+            count = conclusion.bursts[signal]
+            words.append(f"{signal.value}: {count} bursts, far off for a while each")
         if signal in conclusion.left_out:
             times = conclusion.left_out[signal]
             words.append(
