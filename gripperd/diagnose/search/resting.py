@@ -73,7 +73,7 @@ def _evidence(problem: Problem, few: Sequence[Candidate]) -> float:
 
 
 def _lead(best: Problem, tried: Problem) -> float:
-    """By how much another sign must be better; by none if but its way is another."""
+    """By how much another sign must be better; by none if but its way or time is."""
     winds = best.model.winding and tried.model.winding
     fades = best.model.fading and tried.model.fading
     return 0.0 if winds or fades else DECIDED
