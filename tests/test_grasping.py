@@ -3,6 +3,7 @@
 import subprocess
 import time
 from collections.abc import Iterator
+from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +27,7 @@ def daemon(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Daemon]:
 def http(daemon: Daemon) -> Iterator[httpx.Client]:
     """A client; the jaws are open and empty when it comes."""
     with httpx.Client(base_url=f"{daemon.url}/v1", timeout=PATIENCE) as http:
-        until(lambda: ready_again(http))
-        command(http, {"type": "release"})
+        until(lambda: ready_again(http) and released(http))
         http.delete("/bench/object").raise_for_status()
         until(lambda: http.get("/bench").json()["opening_mm"] > 84.9)
         yield http
@@ -47,13 +47,20 @@ def ready_again(http: httpx.Client) -> bool:
     return bool(machine == "ready")
 
 
+def released(http: httpx.Client) -> bool:
+    """Whether it let go; what is held too hard may have become a fault just before."""
+    return _posted(http, {"type": "release"}).status_code == HTTPStatus.CREATED
+
+
 def command(http: httpx.Client, body: dict[str, object]) -> dict[str, Any]:
-    answer = http.post(
-        "/grippers/g0/commands", json=body, headers={"Prefer": "wait=60"}
-    )
-    assert answer.status_code == 201, answer.text
+    answer = _posted(http, body)
+    assert answer.status_code == HTTPStatus.CREATED, answer.text
     document: dict[str, Any] = answer.json()
     return document
+
+
+def _posted(http: httpx.Client, body: dict[str, object]) -> httpx.Response:
+    return http.post("/grippers/g0/commands", json=body, headers={"Prefer": "wait=60"})
 
 
 def place(http: httpx.Client, **kind: object) -> None:
