@@ -28,7 +28,7 @@ recordings of three rigs that hide no physics 6.5 was the most of any. [-]"""
 IN_A_ROW = 3
 """Readings in a row, to one side: a spike is none, and is left out before."""
 SWEEPS = 2
-"""What happens in but one sweep may be a knock."""
+"""What happens in but one sweep is no habit of a rig."""
 
 
 def bursts(problem: Problem, residuals: Sequence[Array]) -> dict[Signal, int]:
