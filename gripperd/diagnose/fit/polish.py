@@ -24,7 +24,7 @@ from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import in_use
 from gripperd.model.track import Array
 
-ROUNDS = 30
+ROUNDS = 40
 """At most: a valley that bends takes many."""
 TRIALS = 7
 """Steps that are tried in a round, each damped ten times as much as the one before."""

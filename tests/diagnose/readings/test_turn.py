@@ -58,16 +58,50 @@ def test_of_a_long_rest_the_end_is_told(seed: int) -> None:
     way, left = _rested(2.0)
     _, told = _told(way, seed)
     np.testing.assert_allclose(_turns(told.signs), [left], atol=4 * STEP)
-    assert not told.unsure.any()
+    assert told.unsure.sum() <= 1
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_round_turn_stays_where_it_was(seed: int) -> None:
+def test_a_round_turn_takes_no_rest(seed: int) -> None:
     time = np.arange(0.0, 28.0, STEP)
     way = 0.09 * (1 - np.cos(2 * np.pi * time / 28.0))
-    plain, told = _told(way, seed)
-    np.testing.assert_array_equal(told.signs, plain)
-    assert not told.unsure.any()
+    _, told = _told(way, seed)
+    np.testing.assert_allclose(_turns(told.signs), [14.0], atol=3 * STEP)
+    assert told.unsure.sum() <= 3
+
+
+def test_of_a_lopsided_turn_its_trend_knows_best() -> None:
+    """Rounder where it comes than where it goes: half as round all over is too late."""
+    time = np.arange(0.0, 28.0, STEP)
+    way = 0.18 * np.sin(np.pi * (time / 28.0) ** 0.6) ** 2
+    turn = 28.0 * 0.5 ** (1 / 0.6)
+    off = [_turns(_told(way, seed)[1].signs).item() - turn for seed in range(10)]
+    assert np.mean(np.abs(off)) < 3 * STEP
+
+
+def _cornered(width: float, back: float) -> tuple[Array, float]:
+    """There and back so many times as fast, smoothly; and when it turns."""
+    fine, top = 0.005, 12 * FAST
+    time = np.arange(0.0, 28.0, fine)
+    sharp = np.interp(time, [0.0, 1.0, 13.0, 13.0 + 12 / back], [0.0, 0.0, top, 0.0])
+    mean = np.ones(round(width / fine))
+    blunt = np.convolve(sharp, mean / mean.sum(), "same")
+    return blunt[:: round(STEP / fine)], float(time[np.argmax(blunt)])
+
+
+@pytest.mark.parametrize("back", [1.0, 2.0])
+@pytest.mark.parametrize("width", [0.3, 0.6, 1.2, 2.4])
+def test_a_rounded_corner_takes_no_rest(width: float, back: float) -> None:
+    """Slower ways last longer: what is faster turns them later than amid the corner."""
+    way, turn = _cornered(width, back)
+    time = STEP * np.arange(float(way.size))
+    near = np.abs(time - turn) < 5.0
+    for seed in range(10):
+        _, told = _told(way, seed)
+        sure = near & ~told.unsure & (np.abs(time - turn) > STEP)
+        truth = np.where(time < turn, 1.0, -1.0)
+        np.testing.assert_array_equal(told.signs[sure], truth[sure])
+        assert told.unsure[near].sum() * STEP <= max(width, 0.4)
 
 
 def test_a_way_back_that_halts_is_another_shape() -> None:

@@ -36,7 +36,7 @@ def test_samples_next_to_a_reversal_say_nothing_of_the_force(
     bad = np.flatnonzero(~usable(silent["d"], Signal.FORCE))
     turn = int(np.flatnonzero(np.diff(silent["d"].direction) < -1)[0])
     assert turn in bad
-    assert bad[bad > 10].tolist() == list(range(turn - 1, turn + 4))
+    assert bad[bad > 10].tolist() == list(range(turn - 2, turn + 4))
 
 
 def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:

@@ -239,7 +239,7 @@ def test_what_explains_another_signal_as_well_is_no_equivalent() -> None:
     # Friction shows in the force alone, and a valve that is off in the pressure alone.
     short = 0.016 * 4.4 / 500
     low = altered(
-        recording(rubbing(5.88)), moments(), "current", lambda current: current + short
+        recording(rubbing(6.0)), moments(), "current", lambda current: current + short
     )
     problem = pinned(problem_of(low, MODEL, {}), "muscle.diameter")
     valve = Candidate("valve_offset", ValveOffset(offset=2e3))
