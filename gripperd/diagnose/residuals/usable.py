@@ -43,7 +43,8 @@ TURNED = 0.1
 """Share of the way by which friction has turned round from which it is turning. [-]"""
 
 STANDS = 0.2
-"""The same within which a pressure that has turned may as well stand. [-]"""
+"""The same within which a pressure that has turned may as well stand, if that is no
+further than its trend is known. [-]"""
 
 
 def usable(course: Course, signal: Signal) -> Mask:
@@ -178,24 +179,29 @@ def _inflating(course: Course) -> Mask:
     """Samples while a pressure turns friction round where nothing travels.
 
     How much of it nobody knows, nor how far the pressure went between two readings, and
-    back. What stands turns nothing.
+    back; nor which way it came that stood before it set out. What stands turns nothing.
     """
+    known = course.smooth.get("pressure")
+    away = OFF * known.spread if known else 0.0
     found = np.zeros(len(course), dtype=bool)
     halts = course.halts if course.direction.any() else (slice(0, len(course)),)
     for halt in halts:
-        found[halt] = _turning_with(course.level("pressure")[halt])
+        found[halt] = _turning_with(course.level("pressure")[halt], away)
     return found
 
 
-def _turning_with(pressure: Array) -> Mask:
+def _turning_with(pressure: Array, away: float) -> Mask:
     found = np.zeros(pressure.size, dtype=bool)
     way = 2 * turning(pressure, INFLATED[AtRest.INFLATING])
     sign = travel(pressure, way)
+    first = int(np.argmax(sign != 0))
+    if first >= NEIGHBOURS:
+        sign[:first] = -sign[first]
     turns = 1 + np.flatnonzero(sign[1:] * sign[:-1] < 0)
     for start, end in pairwise([*turns.tolist(), sign.size]):
         gone = np.abs(pressure[start - 1 : end] - pressure[start - 1])
         back = int(np.argmax(gone > way))
-        stood = np.flatnonzero(gone[: back + 1] <= STANDS * way)[-1]
+        stood = np.flatnonzero(gone[: back + 1] <= min(STANDS * way, away))[-1]
         found[start - 1 + stood : start - 1 + back] = True
     return found
 
