@@ -92,7 +92,7 @@ def _cornered(width: float, back: float) -> tuple[Array, float]:
 @pytest.mark.parametrize("back", [1.0, 2.0])
 @pytest.mark.parametrize("width", [0.3, 0.6, 1.2, 2.4])
 def test_a_rounded_corner_takes_no_rest(width: float, back: float) -> None:
-    """Slower ways last longer: what is faster turns them later than amid the corner."""
+    """The faster the way back, the sooner it has undone what came."""
     way, turn = _cornered(width, back)
     time = STEP * np.arange(float(way.size))
     near = np.abs(time - turn) < 5.0
