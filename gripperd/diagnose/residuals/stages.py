@@ -81,6 +81,8 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
     """What the chain does. [SI]."""
     if signal is Signal.FORCE:
         track = _strained(explanation, track)
+    if signal is Signal.OPENING:
+        track = _pulled(track, partial(_held_by, explanation), rounds=1)
     if signal is Signal.GRIP:
         made = partial(_happened, explanation, Signal.FORCE)
         track = _leaned(explanation, _pulled(track, made, _rounds(explanation)))
@@ -106,6 +108,14 @@ def _pulled(track: Runs, pull: Callable[[Runs], Array], rounds: int) -> Runs:
     for _ in range(rounds if untold.any() else 0):
         track = replace(track, force=np.where(untold, pull(track), track.force))
     return track
+
+
+def _held_by(explanation: Explanation, track: Runs) -> Array:
+    """Pull that grip and return spring take up. [N]."""
+    linkage, length = explanation.linkage, explanation.muscle.rest_length
+    if linkage is None:
+        return track.force
+    return np.asarray(linkage.muscle_force(track.grip, track.contraction, length))
 
 
 def _rounds(explanation: Explanation) -> int:

@@ -446,6 +446,17 @@ def test_a_noisy_force_is_passed_on_to_nothing_but_the_grip() -> None:
     assert sharp < 1e-6
 
 
+def test_without_a_cell_a_tendon_stretches_by_what_grip_and_spring_take_up() -> None:
+    way = np.linspace(0.0, 0.08, 200)
+    grip = np.linspace(0.0, 50.0, 200)
+    told = run(contraction=way, grip=grip, opening=0.085 - 4 * 0.25 * way)
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    soft = JAWED.with_effect(SeriesCompliance(compliance=1e-5))
+    wider = _one(soft, course, Signal.OPENING) - _one(JAWED, course, Signal.OPENING)
+    # The return spring has 240 N and 1000 N/m, the ratio is 4.
+    np.testing.assert_allclose(wider, 1e-5 * (240 + 250 * way + 4 * grip), rtol=0.01)
+
+
 @pytest.mark.parametrize(
     "strokes", [pytest.param(n, id=f"{n} strokes") for n in (0, 1, 4, 12)]
 )
