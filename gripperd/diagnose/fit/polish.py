@@ -94,7 +94,7 @@ class Polished:
         return sum(self.counts.values())
 
 
-def polished(problem: Problem, point: Point) -> Polished:
+def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
     """Fit everything at once, from a point nearby.
 
     Parameters
@@ -103,6 +103,8 @@ def polished(problem: Problem, point: Point) -> Polished:
         The recording and the model.
     point
         Where to start; its effects stay, their numbers move.
+    rounds
+        At most; one tells by how much it may be bettered, roughly.
     """
     point = sized(problem, point)
     coordinates = _coordinates(problem, point)
@@ -110,7 +112,7 @@ def polished(problem: Problem, point: Point) -> Polished:
     cost, white = _cost(problem, point, coordinates)
     covariance = information = np.empty((0, 0))
     damping = promised = 0.0
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         columns = slopes(problem, point, coordinates)
         information = columns.T @ columns
         matrix = information + np.eye(columns.shape[1])

@@ -37,6 +37,8 @@ class Course:
     """The same, 0 where a regulator is taken to keep the pressure. [s]"""
     rested: Array
     """Time since it came to rest where a machine holds it, 0 anywhere else. [s]"""
+    stood: Array
+    """The same, since its pressure stands as well. [s]"""
     on_stairs: bool = False
     """Whether the pressure of its recording goes in stairs, which no trend follows."""
     yields: bool = False
@@ -120,6 +122,7 @@ def joined(courses: Sequence[Course]) -> Course:
         still=np.concatenate([course.still for course in courses]),
         waiting=np.concatenate([course.waiting for course in courses]),
         rested=np.concatenate([course.rested for course in courses]),
+        stood=np.concatenate([course.stood for course in courses]),
         on_stairs=any(course.on_stairs for course in courses),
         yields=any(course.yields for course in courses),
         bends=any(course.bends for course in courses),

@@ -17,7 +17,7 @@ from gripperd.diagnose.readings.halts import halts
 from gripperd.diagnose.readings.length import wandering
 from gripperd.diagnose.readings.level import levels
 from gripperd.diagnose.readings.recording import Recording, Run
-from gripperd.diagnose.readings.rested import rested
+from gripperd.diagnose.readings.rested import with_rests
 from gripperd.diagnose.readings.row import rows
 from gripperd.diagnose.readings.shut import waiting
 from gripperd.diagnose.readings.stairs import Sweep, noise_at_rest, noise_on_stairs
@@ -86,8 +86,8 @@ def courses(
     told = zip(found, waiting(found), supply_drops(found), clamped(found), strict=True)
     return tuple(
         replace(
-            course, waiting=wait, supply_drop=drop, clamped=clamps, listed=listed,
-            halts=halts(course), rested=rested(course),
+            with_rests(course), waiting=wait, supply_drop=drop, clamped=clamps,
+            listed=listed, halts=halts(course),
         )
         for course, wait, drop, clamps in told
     ), noises  # fmt: skip
@@ -147,7 +147,7 @@ def _course(
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,
-        direction, still, still, 0.0 * time, on_stairs, start=start,
+        direction, still, still, 0.0 * time, 0.0 * time, on_stairs, start=start,
     )  # fmt: skip
 
 

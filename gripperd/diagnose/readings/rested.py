@@ -1,5 +1,7 @@
 """How long a way has rested: what rubs may fade there, as a viscous wall gives in."""
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
@@ -14,24 +16,32 @@ STOPS, GOES = 0.05, 0.2
 """Shares of that speed below which it comes to rest, and above which it goes on. [-]"""
 LEAST = 1.5e-3
 """Contraction that ends a rest, however slowly it was gone. [-]"""
+LEAST_PRESSURE = 6e3
+"""The same of a pressure; and what goes by less in a second is not quick. [Pa]"""
 
 
-def rested(course: Course) -> Array:
-    """Time since a sweep came to rest; 0 while it travels. [s].
+def with_rests(course: Course) -> Course:
+    """Tell since when a sweep rests, and since when its pressure stands as well.
 
-    And throughout where a muscle follows its pressure: what it holds against tells the
-    friction at rest.
+    It rests nowhere where a muscle follows its pressure: what it holds against tells
+    the friction at rest.
 
     Parameters
     ----------
     course
         A sweep without a pause.
     """
-    speed, way = np.abs(course.rate("contraction")), course.level("contraction")
-    if not np.isfinite(way).all() or is_free(course):
-        return np.zeros_like(course.time)
-    quick = float(np.quantile(speed, QUICK))
-    since = compiled(_since)(speed, way, (STOPS * quick, GOES * quick), LEAST)
+    if not np.isfinite(course.level("contraction")).all() or is_free(course):
+        return course
+    rested = _halted(course, "contraction", LEAST, 0.0)
+    still = _halted(course, "pressure", LEAST_PRESSURE, LEAST_PRESSURE)
+    return replace(course, rested=rested, stood=np.minimum(rested, still))
+
+
+def _halted(course: Course, name: str, least: float, slow: float) -> Array:
+    speed, way = np.abs(course.rate(name)), course.level(name)
+    quick = max(float(np.quantile(speed, QUICK)), slow)
+    since = compiled(_since)(speed, way, (STOPS * quick, GOES * quick), least)
     return np.asarray(course.time - course.time[since])
 
 

@@ -36,6 +36,10 @@ SWINGS = 0.02
 SWEPT = 0.2
 """Share of it over which it goes, if it is more than what is left of an isobar. [-]"""
 
+FOLLOWING = 0.6
+"""Correlation with its pressure from which a contraction follows it all the way: 0.94
+and more under a weight or a spring, 0.4 and less if a machine moves it as well. [-]"""
+
 DRIVING = 0.1
 """Share of a way of pressure that lies in its last quarter, if it still goes on. [-]"""
 
@@ -97,7 +101,12 @@ def late(course: Course) -> Mask:
 
 def is_free(course: Course) -> bool:
     """Whether a muscle follows its pressure anywhere, and no machine moves it."""
-    return any(way.is_followed for way in _free_ways(course))
+    if not any(way.is_followed for way in _free_ways(course)):
+        return False
+    if np.isfinite(course.level("grip")).any():
+        return True
+    both = np.corrcoef(course.level("pressure"), course.level("contraction"))
+    return bool(both[0, 1] > FOLLOWING)
 
 
 class Way(NamedTuple):

@@ -181,7 +181,8 @@ def directions(explanation: Explanation, course: Course, *places: int) -> Array:
     for halt in course.halts if share else ():
         found[halt] = _halting(course.level("pressure")[halt], found[halt], share)
     if explanation.fading:
-        found *= np.exp(-course.rested / explanation.fading)
+        rested = course.stood if share else course.rested
+        found *= np.exp(-rested / explanation.fading)
     return found
 
 

@@ -6,6 +6,7 @@ way. A wrong sign would look like an effect.
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -26,8 +27,10 @@ DECIDED = 5.0
 """By so much another convention must be better. [nat]"""
 WINDINGS = (1e-4, 1.4e-4, 2e-4, 2.8e-4, 4e-4, 5.7e-4, 8e-4)
 """Ways tried by which a frame must yield for friction to turn half round. [-]"""
-FADINGS = (0.1, 0.4, 1.6)
+FADINGS = (0.1, 0.4, 1.6, 6.4, 26.0)
 """Times tried in which friction fades at rest: at once, or as rubber gives in. [s]"""
+WORTH = 20.0
+"""By so much less another may explain after a first step, and be fitted. [nat]"""
 BRAID = WRONG + "muscle.friction_coefficient"
 STAND_INS = (BRAID, "pressure_hysteresis")
 """What may be found instead of a sign."""
@@ -98,15 +101,19 @@ def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
             yield replace(problem, model=replace(model, winding=winding, fading=0.0))
 
 
-def _fading(problem: Problem) -> Iterator[Problem]:
+def _fading(found: Found) -> Iterator[Problem]:
     """Give the problem with friction that fades at rest, as fast as it may.
 
-    It is asked beside what was found alone: what creeps fast looks alike at first.
+    Whether it turns with the pressure before it does or not, if that may explain as
+    much. It is asked beside what was found alone: what creeps fast looks alike.
     """
-    model = replace(problem.model, at_rest=AtRest.CARRIED, winding=0.0)
-    for fading in FADINGS:
-        if fading != problem.model.fading:
-            yield replace(problem, model=replace(model, fading=fading))
+    here, model = found.best, found.problem.model
+    for sign, fading in product((AtRest.CARRIED, AtRest.INFLATING), FADINGS):
+        tried = replace(model, at_rest=sign, winding=0.0, fading=fading)
+        problem = replace(found.problem, model=tried)
+        roughly = polished(problem, here.fit.point, rounds=1)
+        if replace(here, fit=roughly).evidence > here.evidence - WORTH:
+            yield problem
 
 
 def with_sign_beside(
@@ -133,7 +140,7 @@ def with_sign_beside(
         return found
     best, most = problem, here.evidence
     near, nearest, likely = problem, -np.inf, -np.inf
-    for tried in (*_others(problem, rubs=True), *_fading(problem)):
+    for tried in (*_others(problem, rubs=True), *_fading(found)):
         fits = list(_beside(replace(found, problem=tried), listed))
         told = max(one.evidence for one in fits)
         # Beside what stands in for it every sign is alike.

@@ -18,7 +18,7 @@ from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.command import stillness
 from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.recording import Kind, Run
-from gripperd.diagnose.readings.rested import rested
+from gripperd.diagnose.readings.rested import with_rests
 from gripperd.diagnose.readings.travel import contracting
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.verdict.key import plain
@@ -178,9 +178,9 @@ def _course(problem: Problem, sweep: Sweep) -> Course:
         sweep.title, sweep.kind, sweep.time + end, np.diff(sweep.time, prepend=0.0),
         columns, smooth, problem.courses[-1].cycle[-1] + 1 + 0 * sweep.time, nothing,
         0 * sweep.time, contracting(smooth["contraction"]), still, still,
-        0 * sweep.time, start=known.start,
+        0 * sweep.time, 0 * sweep.time, start=known.start,
     )  # fmt: skip
-    return replace(planned, rested=rested(planned))
+    return with_rests(planned)
 
 
 def _reach(problem: Problem, told: Rival) -> tuple[float, float]:

@@ -178,6 +178,27 @@ def test_where_it_rests_it_may_fade() -> None:
     np.testing.assert_allclose(signs[50], -np.exp(-4.0))
 
 
+def test_what_turns_with_the_pressure_fades_once_that_stands() -> None:
+    plain = _courses(recording())["b"]
+    time = 0.1 * np.arange(60.0)
+    course = replace(
+        plain,
+        time=time,
+        step=np.full(60, 0.1),
+        measured={"pressure": np.interp(time, [0.0, 2.0, 3.0], [4e5, 4e5, 3e5])},
+        smooth={},
+        direction=0.0 * time,
+        rested=time,
+        stood=np.where(time < 2.0, time, np.maximum(time - 3.0, 0.0)),
+    )
+    turning = replace(MODEL, at_rest=AtRest.INFLATING, fading=0.5, rests={0: 0.8})
+    signs = directions(turning, course, 0)
+    np.testing.assert_allclose(signs[:20], 0.8 * np.exp(-2.0 * time[:20]))
+    # By 6 kPa of 100 it has turned.
+    np.testing.assert_allclose(signs[21:31], -1.0)
+    np.testing.assert_allclose(signs[35], -np.exp(-1.0))
+
+
 def test_what_a_frame_holds_that_yields_turns_over_its_way() -> None:
     plain = _courses(recording())["b"]
     # Up by 5 um a metre each sample, to 500, and back.

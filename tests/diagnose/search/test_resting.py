@@ -337,10 +337,11 @@ def _shifted(time: Array, force: Array) -> Array:
     return np.interp(time - 0.3, time, force)
 
 
-def _stairs(*, fades: bool, creeps: float = 0.0) -> Recording:
+def _stairs(*, fades: bool, creeps: float = 0.0, turns: bool = False) -> Recording:
     """Lengths and pressures in stairs, and friction that fades in a second, or stays.
 
-    What creeps, in N, goes by e in 3 s after each stair of pressure.
+    What creeps, in N, goes by e in 3 s after each stair of pressure. What turns goes
+    with a pressure until that stands.
     """
     runs = []
     steps = np.array([0.0, 3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 24.0])
@@ -353,9 +354,10 @@ def _stairs(*, fades: bool, creeps: float = 0.0) -> Recording:
               (("d", 200e3), ("e", 300e3), ("f", 400e3))]  # fmt: skip
     for place, (name, pressure, way) in enumerate(plans):
         random = np.random.default_rng([7, place])
-        went = np.gradient(way) != 0
+        led = pressure if turns and np.ptp(way) == 0 else way
+        went = np.gradient(led) != 0
         sign, late, signs, lag = 1.0, pressure[0], [], []
-        for goes, up, now in zip(went, np.gradient(way) > 0, pressure, strict=True):
+        for goes, up, now in zip(went, np.gradient(led) > 0, pressure, strict=True):
             sign = (1.0 if up else -1.0) if goes else sign * np.exp(-0.1 * fades)
             late += (now - late) * -np.expm1(-0.1 / 3.0)
             signs.append(sign)
@@ -379,11 +381,20 @@ def _stairs(*, fades: bool, creeps: float = 0.0) -> Recording:
 def test_what_seems_to_creep_may_be_friction_that_fades_at_rest(
     fading: tuple[float, ...], *, fades: bool
 ) -> None:
-    problem = problem_of(_stairs(fades=fades, creeps=0.0 if fades else 40.0), MODEL, {})
+    problem = problem_of(
+        _stairs(fades=fades, creeps=0.0 if fades else -40.0), MODEL, {}
+    )
     creeping = Candidate("creep", Creep())
     decided = _beside(problem, creeping)
     assert decided.model.fading in fading
     assert decided.model.at_rest is AtRest.CARRIED
+
+
+def test_friction_that_fades_may_have_turned_with_the_pressure() -> None:
+    problem = problem_of(_stairs(fades=True, turns=True), MODEL, {})
+    decided = _beside(problem, Candidate("creep", Creep()))
+    assert decided.model.at_rest is AtRest.INFLATING
+    assert decided.model.fading in (0.4, 1.6)
 
 
 def test_nothing_else_of_the_problem_changes() -> None:
