@@ -82,11 +82,12 @@ def bend(time: Array, way: Array, variance: float, trend: float) -> Turn | None:
     rest, corner, rounded = (
         _nearest(one, time, way) for one in (_rest, _corner, _round)
     )
-    turns = {rest.ends: rest.misfit, corner.turns: corner.misfit, trend: rounded.misfit}
-    least = min(turns.values())
+    least = min(one.misfit for one in (rest, corner, rounded))
     if least > (time.size + FOREIGN * count) * variance:
         return None
-    likely = [when for when, one in turns.items() if one - least <= 2 * RARE * variance]
+    most = least + 2 * RARE * variance
+    turns = (rest, rest.ends), (corner, corner.turns), (rounded, trend)
+    likely = [when for one, when in turns if one.misfit <= most]
     within = share * float(np.diff(time).max()) / (FINE - 1)
     return Turn(min(likely) - within, max(likely) + within)
 

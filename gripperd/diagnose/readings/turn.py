@@ -1,7 +1,7 @@
-"""When a way turns that takes a rest there: at its end, with the way back.
+"""When a way turns, by the readings about it: friction turns round with the way.
 
 A trend goes past the end of a way that is held and comes back, so that it seems to turn
-amid the rest. Friction turns round with the way.
+amid the rest: it turns at its end, with the way back.
 """
 
 from itertools import pairwise
@@ -32,7 +32,7 @@ class Turned(NamedTuple):
 
 
 def turned(signs: Array, time: Array, column: Array, known: Smooth) -> Turned:
-    """Let a way turn where the rest ends that it takes there, if it takes one.
+    """Let a way turn where its readings do, if they are of a shape that is known.
 
     Parameters
     ----------
