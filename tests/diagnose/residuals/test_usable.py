@@ -406,6 +406,21 @@ def test_a_pressure_that_stands_turns_no_friction() -> None:
     assert good[255:345].all()
 
 
+def test_in_a_halt_nobody_knows_how_friction_turned_round_either() -> None:
+    # There in 50 samples; 2.8 kPa from one reading to the next, and 6 of them are two.
+    pressure = np.interp(np.arange(400), [60, 200, 340], [60e3, 452e3, 60e3])
+    told = run(
+        pressure=pressure + noise(400, 300.0),
+        contraction=np.interp(np.arange(400), [0, 50], [0.0, 0.1]),
+        force=1e-3 * pressure + noise(400, 1.0, 4),
+    )
+    (course,) = courses(Recording("r", "0", (told,)), 0.25)[0]
+    good = usable(course, Signal.FORCE)
+    assert not good[200:202].any()
+    assert good[65:199].all()
+    assert good[204:330].all()
+
+
 def test_a_pressure_that_creeps_back_may_turn_friction() -> None:
     """By 4 kPa, which its trend knows well; then it falls on."""
     good = _led((0, 60), (100, 340), (250, 336), (350, 60), (400, 60))

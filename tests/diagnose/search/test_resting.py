@@ -4,6 +4,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.fit.candidates import Candidate, candidates
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Recording, Run
@@ -388,6 +389,12 @@ def test_what_seems_to_creep_may_be_friction_that_fades_at_rest(
     decided = _beside(problem, creeping)
     assert decided.model.fading in fading
     assert decided.model.at_rest is AtRest.CARRIED
+
+
+def test_what_creeps_is_not_taken_for_friction_that_fades() -> None:
+    told = diagnose(_stairs(fades=False, creeps=40.0), MODEL, {}, EFFECTS)
+    assert [one.name for one in told.named] == ["creep"]
+    assert not told.found.problem.model.fading
 
 
 def test_friction_that_fades_may_have_turned_with_the_pressure() -> None:
