@@ -35,6 +35,7 @@ from gripperd.diagnose.verdict.conclude import (
     not_closed,
     not_confirmed,
 )
+from gripperd.diagnose.verdict.convention import with_conventions
 from gripperd.diagnose.verdict.extrapolation import (
     Extrapolation,
     apart,
@@ -162,6 +163,7 @@ def diagnose(  # noqa: PLR0913  (what is asked, and how to go about it)
         told = without_refuted(parts, inside, found, selection.contest, listed)
         best = completed(parts, inside, found, told, listed)
         recording = remarked(recording, selection.contest, best)
+        recording = with_conventions(recording, found.problem, best.best.fit.point)
         borne_out = replace(selection, contest=best)
         return _judged(recording, borne_out, untested, seed)
 
