@@ -14,6 +14,7 @@ from gripperd.diagnose.fit.candidates import WRONG, Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, removed
+from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -59,9 +60,14 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
         for one in problem.model.effects
         if one.name != BRAIDED
     )
-    best, most = problem, _evidence(problem, few)
-    for tried in _others(problem, rubs=rubs):
-        told = _evidence(tried, few)
+    others = list(_others(problem, rubs=rubs))
+    most, *supports = side_by_side(
+        lambda tried: _evidence(replace(tried, processes=1), few),
+        (problem, *others),
+        problem.processes,
+    )
+    best = problem
+    for tried, told in zip(others, supports, strict=True):
         if told > most + _lead(best, tried):
             best, most = tried, told
     return best
@@ -101,19 +107,15 @@ def _others(problem: Problem, *, rubs: bool) -> Iterator[Problem]:
             yield replace(problem, model=replace(model, winding=winding, fading=0.0))
 
 
-def _fading(found: Found) -> Iterator[Problem]:
+def _fading(problem: Problem) -> Iterator[Problem]:
     """Give the problem with friction that fades at rest, as fast as it may.
 
-    Whether it turns with the pressure before it does or not, if that may explain as
-    much. It is asked beside what was found alone: what creeps fast looks alike.
+    Whether it turns with the pressure before it does or not. It is asked beside what
+    was found alone: what creeps fast looks alike.
     """
-    here, model = found.best, found.problem.model
     for sign, fading in product((AtRest.CARRIED, AtRest.INFLATING), FADINGS):
-        tried = replace(model, at_rest=sign, winding=0.0, fading=fading)
-        problem = replace(found.problem, model=tried)
-        roughly = polished(problem, here.fit.point, rounds=1)
-        if replace(here, fit=roughly).evidence > here.evidence - WORTH:
-            yield problem
+        tried = replace(problem.model, at_rest=sign, winding=0.0, fading=fading)
+        yield replace(problem, model=tried)
 
 
 def with_sign_beside(
@@ -138,14 +140,15 @@ def with_sign_beside(
     problem, here = found.problem, found.best
     if not here.candidates or not rests(problem):
         return found
+    others = [*_others(problem, rubs=True), *_fading(problem)]
+    supports = side_by_side(
+        lambda tried: _support(found, replace(tried, processes=1), listed),
+        others,
+        problem.processes,
+    )
     best, most = problem, here.evidence
     near, nearest, likely = problem, -np.inf, -np.inf
-    for tried in (*_others(problem, rubs=True), *_fading(found)):
-        fits = list(_beside(replace(found, problem=tried), listed))
-        told = max(one.evidence for one in fits)
-        # Beside what stands in for it every sign is alike.
-        fewest = min(len(one.candidates) for one in fits)
-        bare = max(one.evidence for one in fits if len(one.candidates) == fewest)
+    for tried, (told, bare) in zip(others, supports, strict=True):
         if bare > nearest:
             near, nearest, likely = tried, bare, told
         if told > most + _lead(best, tried):
@@ -157,6 +160,27 @@ def with_sign_beside(
         return found
     other = searched(near)
     return other if _is_simpler(other, found) else found
+
+
+def _support(
+    found: Found, tried: Problem, listed: Sequence[Candidate]
+) -> tuple[float, float]:
+    """Evidence of the best with another sign, and of it without what stands in for one.
+
+    Beside what stands in for it every sign is alike. A fading that explains much less
+    after a first step explains nothing.
+    """
+    here = found.best
+    if tried.model.fading:
+        roughly = polished(tried, here.fit.point, rounds=1)
+        if replace(here, fit=roughly).evidence <= here.evidence - WORTH:
+            return -np.inf, -np.inf
+    fits = list(_beside(replace(found, problem=tried), listed))
+    fewest = min(len(one.candidates) for one in fits)
+    return (
+        max(one.evidence for one in fits),
+        max(one.evidence for one in fits if len(one.candidates) == fewest),
+    )
 
 
 def _is_simpler(other: Found, found: Found) -> bool:

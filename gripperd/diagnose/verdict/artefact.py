@@ -27,6 +27,8 @@ from gripperd.model.parameter import amplitude
 from gripperd.model.track import Array, Track
 
 FORCE: frozenset[str] = frozenset({"force"})
+NEAR = 0.5
+"""Share of what the names explain that one must in a first step, to be fitted. [-]"""
 VENTED = 0.01
 """Share of the line below which a regulator vents, and keeps nothing. [-]"""
 
@@ -182,10 +184,13 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
     if not listed:
         return None
     around = design(problem, found.null.fit.point, listed)
-    gains = {one: around.fit(one).evidence for one in around.members}
+    base = around.fit().evidence
+    gains = {one: around.fit(one).evidence - base for one in around.members}
     if not gains:
         return None
     leader = max(gains, key=lambda one: gains[one]).candidate
+    if max(gains.values()) < NEAR * (best.best.evidence - found.null.evidence):
+        return None
     (told,) = larger(problem, found.null, [leader])
     # A moment was chosen among many.
     if told.evidence - np.log(len(listed)) <= best.best.evidence:
