@@ -73,7 +73,7 @@ STAIRS = np.linspace(0.0, 49.8, 250)
 """Times of a grip up a staircase. [s]"""
 
 
-def _grasping(late: float, delay: float) -> Array:
+def _grasping(late: float, delay: float, skew: float = 0.0) -> Array:
     """What is left of a grip when a cell that reads late is taken to be so late.
 
     A smooth force smears the steps: 40 N of grip in two samples.
@@ -86,6 +86,7 @@ def _grasping(late: float, delay: float) -> Array:
     told = run(time=STAIRS, pressure=pull, contraction=held, force=read, grip=grip)
     (course,) = courses(Recording("r", "0", (told,)), 0.2)[0]
     aware = JAWED.with_effect(ChannelDelay(delay=delay, channel=Signal.FORCE))
+    aware = replace(aware, skews={Signal.GRIP: skew})
     passed = passed_on(JAWED, course, track_of(JAWED, course, 0), Signal.GRIP)
     return (grip - passed - _one(aware, course, Signal.GRIP))[:-2]
 
@@ -98,6 +99,12 @@ def test_a_grip_is_foretold_from_what_a_late_cell_reads_later() -> None:
 def test_a_delay_takes_no_noise_off_a_grip() -> None:
     """Halfway between two readings there would be a third less of it."""
     usual = [np.median(np.abs(_grasping(0.0, delay))) for delay in (0.0, 0.08)]
+    assert usual[1] == pytest.approx(usual[0], rel=0.1)
+
+
+@pytest.mark.parametrize("skew", [0.08, -0.08])
+def test_nor_does_a_grip_that_is_sampled_beside_a_late_force(skew: float) -> None:
+    usual = [np.median(np.abs(_grasping(0.16, 0.16, each))) for each in (0.0, skew)]
     assert usual[1] == pytest.approx(usual[0], rel=0.1)
 
 
