@@ -7,6 +7,7 @@ from gripperd.diagnose.fit.candidates import Candidate, side
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.curve import beyond_curves
 from gripperd.model.effect import Effect, Signal
 
 SEEN = 13.0
@@ -43,7 +44,7 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
     """Tell whether each of its effects needs the memory that it is named for.
 
     Relays follow a curve, which may be all that there is, or nearly all where they have
-    a loop the wrong way round.
+    a loop the wrong way round; or where they bend as no other curve of the library.
 
     Parameters
     ----------
@@ -57,6 +58,8 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
         bare = effect.forgetful
         if bare is effect:
             continue
+        if beyond_curves(problem, point, effect) < SEEN:
+            return False
         # The constants may make up for a loop that is in nothing but the fit.
         given = replace(problem, model=problem.model.with_effect(bare))
         others = point.without(effect.name)

@@ -67,6 +67,27 @@ def test_relays_show_a_loop_where_there_is_one_and_springs_are_nothing_else(
     assert shows_its_loop(problem, told) is is_seen
 
 
+def _chain(moment: Moment) -> Array:
+    """A chain near the end of its stretch: no curve of the library bends so."""
+    return -60.0 * moment.contraction / (0.25 - moment.contraction)
+
+
+def _stop(moment: Moment) -> Array:
+    """A soft stop that sets in at once."""
+    return -2000.0 * np.maximum(moment.contraction - 0.1, 0.0)
+
+
+@pytest.mark.parametrize("hidden", [_chain, _stop])
+def test_a_curve_that_bends_as_the_edge_of_a_loop_shows_none(hidden: Hidden) -> None:
+    """Relays that switch beyond its ends have it, and those in their place do not."""
+    problem = problem_of(recording(hidden), MODEL, {})
+    start = Point(np.zeros(len(problem.constants)), (OF_WAY,))
+    told = Rival((Candidate(OF_WAY.name, OF_WAY),), polished(problem, start))
+    (relays,) = told.fit.point.effects
+    assert relays.forgetful is not relays
+    assert not shows_its_loop(problem, told)
+
+
 @pytest.mark.parametrize(("half", "is_seen"), [(24e3, False), (80e3, True)])
 def test_a_loop_the_wrong_way_round_is_most_of_what_there_is(
     half: float, *, is_seen: bool
