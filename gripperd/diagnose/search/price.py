@@ -13,6 +13,7 @@ from gripperd.diagnose.residuals.explanation import moves
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 
 PHANTOM = 0.06
 """An addition that closes less of the first gap than this repairs its shape, and is
@@ -207,7 +208,8 @@ def size_of(
 ) -> float:
     """How much some effects change most in some signals, of full scale.
 
-    Everything else is left as it is. Of constants it is infinite.
+    Everything else is left as it is. What takes from a reading one way and adds to it
+    the other, as play does, changes it by both. Of constants it is infinite.
     """
     point = rival.fit.point
     others = tuple(one for one in point.effects if one.name not in names)
@@ -216,11 +218,16 @@ def size_of(
     bare = replace(point, effects=others)
     there, here = (problem.expected(problem.explanation(p)) for p in (point, bare))
     sizes = [
-        float(np.max(np.abs(a - b))) / problem.full_scale[block.signal]
+        _span(a - b) / problem.full_scale[block.signal]
         for block, a, b in zip(problem.blocks, there, here, strict=True)
         if block.signal in signals
     ]
     return max(sizes)
+
+
+def _span(change: Array) -> float:
+    """From what it takes most to what it adds most."""
+    return float(np.max(change, initial=0.0) - np.min(change, initial=0.0))
 
 
 def acts_on(problem: Problem, candidate: Candidate) -> frozenset[Signal]:

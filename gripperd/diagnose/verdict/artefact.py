@@ -192,8 +192,9 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
     if max(gains.values()) < NEAR * (best.best.evidence - found.null.evidence):
         return None
     (told,) = larger(problem, found.null, [leader])
-    # A moment was chosen among many.
-    if told.evidence - np.log(len(listed)) <= best.best.evidence:
+    # Of those with a moment one was chosen among many.
+    alike = sum(one.name == leader.name for one in listed)
+    if told.evidence - np.log(alike) <= best.best.evidence:
         return None
     (seen,) = told.fit.point.effects
     assert isinstance(seen, Artefact)

@@ -5,9 +5,11 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.rival import larger
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.rivalry import contest
+from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.rivalry import Contest, contest
 from gripperd.diagnose.search.stepwise import search
 from gripperd.diagnose.setup import problem_of
 from gripperd.diagnose.verdict.artefact import (
@@ -48,13 +50,20 @@ def _drifted(moment: Moment) -> Array:
     return -0.08 * moment.time
 
 
-def _seen(
+def _found(
     told: Recording, named: Effect = DRIFT, *also_open: str
-) -> tuple[Problem, Artefact | None]:
+) -> tuple[Found, Contest]:
     problem = pinned(problem_of(told, MODEL, {}), *OPEN, *also_open)
     listed = (Candidate(named.name, named),)
     found = search(problem, listed, np.random.default_rng(0))
-    return problem, artefact(found, contest(found, listed))
+    return found, contest(found, listed)
+
+
+def _seen(
+    told: Recording, named: Effect = DRIFT, *also_open: str
+) -> tuple[Problem, Artefact | None]:
+    found, best = _found(told, named, *also_open)
+    return found.problem, artefact(found, best)
 
 
 def test_a_mount_that_slipped_once_is_no_drift() -> None:
@@ -153,6 +162,28 @@ def test_a_zero_that_goes_with_the_temperature_is_no_stiffness() -> None:
     _, seen = _seen(told, TemperatureStiffness(modulus=0.005), "zero.contraction")
     assert isinstance(seen, WarmCell)
     assert seen.rate == pytest.approx(1.5, abs=0.15)
+
+
+def _all_but_as_likely(found: Found, best: Contest, seen: Artefact) -> Contest:
+    """Give names that are behind an artefact by 1 nat."""
+    (told,) = larger(found.problem, found.null, [Candidate(seen.name, seen)])
+    here = best.best
+    cost = here.fit.cost + 2 * (here.evidence - told.evidence + 1.0)
+    return replace(best, best=replace(here, fit=replace(here.fit, cost=cost)))
+
+
+def test_a_moment_is_one_of_many_and_a_zero_that_warms_is_one() -> None:
+    """Six moments cost 1.8 nat, and 1 nat is all that either is ahead."""
+    warm = _warmed(recording(), lambda moment: np.full(moment.time.size, 1.5))
+    stiff = TemperatureStiffness(modulus=0.005)
+    found, best = _found(warm, stiff, "zero.contraction")
+    seen = artefact(found, best)
+    assert isinstance(seen, WarmCell)
+    assert artefact(found, _all_but_as_likely(found, best, seen)) is not None
+    found, best = _found(recording(_slipped))
+    seen = artefact(found, best)
+    assert isinstance(seen, Jump)
+    assert artefact(found, _all_but_as_likely(found, best, seen)) is None
 
 
 def test_a_stiffness_that_goes_with_the_temperature_is_no_zero() -> None:
