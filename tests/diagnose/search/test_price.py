@@ -98,6 +98,25 @@ def test_an_effect_that_changes_no_reading_is_not_worth_its_price(
     assert worth(problem, null, null, best, 20.0) is seen
 
 
+@pytest.mark.parametrize(
+    ("hidden", "candidate", "seen"),
+    [
+        pytest.param(rubbing(2.5), RUB, False, id="5 N from there to back"),
+        pytest.param(rubbing(4.0), RUB, True, id="8 N from there to back"),
+        pytest.param(lambda m: 4.0 + 0 * m.time, BIAS, False, id="4 N all the way"),
+        pytest.param(lambda m: 8.0 + 0 * m.time, BIAS, True, id="8 N all the way"),
+    ],
+)
+def test_a_first_changes_a_reading_by_what_it_takes_and_what_it_adds(
+    hidden: Hidden, candidate: Candidate, *, seen: bool
+) -> None:
+    """By 0.5 % of 1.3 kN at least, which is 6.5 N."""
+    problem = pinned(problem_of(recording(hidden, noise=0.1), MODEL, {}))
+    null, best = (fitted(problem, *one) for one in ((), (candidate,)))
+    assert best.evidence - null.evidence > 100.0
+    assert worth(problem, null, null, best, 20.0) is seen
+
+
 @pytest.mark.parametrize(("first", "seen"), [(GIVES_MORE, True), (RUB, False)])
 def test_the_first_that_acts_somewhere_is_as_visible_as_it_is_by_itself(
     first: Candidate, *, seen: bool
