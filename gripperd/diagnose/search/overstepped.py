@@ -8,9 +8,10 @@ from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.rival import Rival, larger
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.needed import without_each
 from gripperd.diagnose.search.preference import BORE, at_edge
 from gripperd.diagnose.search.price import LEAST_MORE
-from gripperd.diagnose.search.rivalry import Contest, Place, without_each
+from gripperd.diagnose.search.rivalry import Contest, Place
 
 KIN = 0.5
 """Share of the gain from which another constant could be the wrong one. [-]"""

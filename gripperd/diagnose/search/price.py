@@ -12,6 +12,7 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.explanation import moves
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.bic import STRONG, delta_bic
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
@@ -73,6 +74,9 @@ def worth(
     if gain <= threshold or not is_fault(problem, larger):
         return False
     if not best.candidates:
+        acts = any(one.effect for one in larger.candidates)
+        if acts and delta_bic(problem, larger, best) > STRONG:
+            return False
         return size_of(problem, larger, larger.names, problem.signals) >= SEEN
     new = [one for one in larger.candidates if one.name not in best.names]
     signals = {signal for one in new for signal in acts_on(problem, one)}

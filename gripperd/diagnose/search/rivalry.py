@@ -9,13 +9,14 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import Candidate, is_plain
 from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
-from gripperd.diagnose.fit.rival import Rival, Start, added, fitted, removed
+from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
 from gripperd.diagnose.residuals.holdout import FEW
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import LEAST
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.limit import has_become
 from gripperd.diagnose.search.loop import discernible, is_but_curve, shows_its_loop
+from gripperd.diagnose.search.needed import needed, without_each
 from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
 
@@ -259,37 +260,3 @@ def _challengers(
     strongest = sorted(leaders.values(), key=lambda one: -one[0])[:CHALLENGERS]
     chosen = [member.candidate for _, member in strongest]
     return [((*rest[:index], one, *rest[index:]), added(base, one)) for one in chosen]
-
-
-def needed(
-    problem: Problem, told: Rival, without: tuple[Rival, ...], threshold: float
-) -> tuple[Rival, tuple[Rival, ...]]:
-    """Drop what is idle beside the rest, and give it without each that is not.
-
-    Parameters
-    ----------
-    problem
-        The recording and the model.
-    told, without
-        An explanation, and it without each of its candidates.
-    threshold
-        Gain up to which one is idle. [nat]
-    """
-    while len(told.candidates) > 1:
-        idle = max(without, key=lambda one: one.evidence)
-        if told.evidence - idle.evidence > threshold:
-            break
-        told, without = idle, without_each(problem, idle)
-    return told, without
-
-
-def without_each(problem: Problem, told: Rival) -> tuple[Rival, ...]:
-    """Give it without each of its candidates, fitted anew."""
-    starts = [
-        (
-            (*told.candidates[:index], *told.candidates[index + 1 :]),
-            removed(problem, told.fit.point, own),
-        )
-        for index, own in enumerate(told.candidates)
-    ]
-    return tuple(fitted(problem, starts))

@@ -20,15 +20,10 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.dwell import dwelling, misfit, stilled
 from gripperd.diagnose.search.finalists import leaders
 from gripperd.diagnose.search.found import Found
+from gripperd.diagnose.search.needed import needed, without_each
 from gripperd.diagnose.search.preference import strained
 from gripperd.diagnose.search.price import LEAST_MORE, MUCH, is_fault
-from gripperd.diagnose.search.rivalry import (
-    SURE,
-    Contest,
-    Place,
-    needed,
-    without_each,
-)
+from gripperd.diagnose.search.rivalry import SURE, Contest, Place
 from gripperd.diagnose.search.step_response import closes_responses, with_responses
 from gripperd.model.effect import Signal
 

@@ -10,6 +10,7 @@ from gripperd.diagnose.fit.candidates import WRONG, Candidate
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.search.bic import delta_bic
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.gap import Gap
@@ -105,7 +106,7 @@ def _described(
         signal=signal,
         equivalents=best.equivalents[index],
         p_value=_chance(found, rival.evidence - without.evidence),
-        delta_bic=rival.fit.cost - without.fit.cost + _price(problem, rival, without),
+        delta_bic=delta_bic(problem, rival, without),
         heldout_gain=gap.closed if gap else 0.0,
     )
 
@@ -173,16 +174,3 @@ def _chance(found: Found, gain: float) -> float:
     if above:
         return above * rarest
     return rarest * exp(-min(gain - float(nulls[-1]), 600.0))
-
-
-def _price(problem: Problem, rival: Rival, without: Rival) -> float:
-    """BIC's price of the further numbers, on the effective size of the sample."""
-    effective = sum(
-        measured.size
-        * problem.noises[block.signal].std ** 2
-        / problem.noises[block.signal].slow_variance
-        for block, measured in zip(problem.blocks, problem.measured, strict=True)
-    )
-    more = len(rival.fit.coordinates) - len(without.fit.coordinates)
-    more += len(rival.fit.point.freed) - len(without.fit.point.freed)
-    return float(more * np.log(effective))

@@ -20,7 +20,8 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import least
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.rivalry import Contest, Place, contest, without_each
+from gripperd.diagnose.search.needed import without_each
+from gripperd.diagnose.search.rivalry import Contest, Place, contest
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
 
 TELLING = 20.0

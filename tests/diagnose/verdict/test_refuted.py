@@ -10,7 +10,8 @@ from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
-from gripperd.diagnose.search.rivalry import Contest, Place, without_each
+from gripperd.diagnose.search.needed import without_each
+from gripperd.diagnose.search.rivalry import Contest, Place
 from gripperd.diagnose.verdict.refuted import refuted, without_refuted
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.threshold_pressure import ThresholdPressure
