@@ -444,12 +444,17 @@ def test_a_sensor_may_have_drifted_in_a_sweep_left_out(
     assert found.verdict is verdict
 
 
-def test_what_is_too_small_to_be_told_is_told_to_come_nearest() -> None:
+def test_what_is_too_small_to_be_told_is_told_to_come_nearest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of 1.3 kN friction of 5 N changes 0.8 %: were that what sensors drift."""
+    for place in ("search.price", "verdict.signature"):
+        monkeypatch.setattr(f"gripperd.diagnose.{place}.SEEN", 0.01)
     found = diagnose(recording(rubbing(5.0), noise=0.2), MODEL, {}, dict(EFFECTS))
     assert found.verdict is Verdict.UNEXPLAINED
     assert _names(found) == ["coulomb_friction"]
     assert found.told is found.found.null
-    assert "they change no reading by 0.5% of full scale" in found.signature[2]
+    assert "they change no reading by 1.0% of full scale" in found.signature[2]
     assert "is sure to explain it" in summary(found)
     text = document(found, model="m", program="p")
     assert text["effects"] == []

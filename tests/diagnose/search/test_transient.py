@@ -195,10 +195,11 @@ def test_rivals_stay_beside_what_they_stand_for() -> None:
     assert rival.names == ("twin", "force_sensor_drift")
 
 
-def test_no_rival_is_what_is_told_beside_it() -> None:
+def test_no_rival_is_what_is_told_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:
     found, best = _ended(threshold(60.0), creeping(0.02), listed=LEVELS[1:])
     # The bias is idle, so that creep twice would do as well as creep beside it.
     lenient = replace(found, threshold=-100.0)
+    monkeypatch.setattr("gripperd.diagnose.search.needed.STRONG", 100.0)
     _, told = _told(lenient, _with_rival(found, best, LATE[0], "force_sensor_bias"))
     assert told.best.names == ("force_sensor_bias", "threshold_pressure", "creep")
     assert told.places[0].rivals == ()
