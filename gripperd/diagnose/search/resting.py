@@ -113,9 +113,11 @@ def _fading(problem: Problem) -> Iterator[Problem]:
     Whether it turns with the pressure before it does or not. It is asked beside what
     was found alone: what creeps fast looks alike.
     """
+    model = problem.model
     for sign, fading in product((AtRest.CARRIED, AtRest.INFLATING), FADINGS):
-        tried = replace(problem.model, at_rest=sign, winding=0.0, fading=fading)
-        yield replace(problem, model=tried)
+        if (sign, fading) != (model.at_rest, model.fading):
+            tried = replace(model, at_rest=sign, winding=0.0, fading=fading)
+            yield replace(problem, model=tried)
 
 
 def with_sign_beside(

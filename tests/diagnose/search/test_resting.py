@@ -293,6 +293,25 @@ def _leading(one: Rival, other: Rival, by: float) -> Rival:
     return replace(one, fit=replace(one.fit, cost=cost))
 
 
+def test_friction_that_fades_is_not_tried_as_it_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    fades = replace(_rising(), model=replace(MODEL, fading=1.6))
+    tried: list[Problem] = []
+
+    def listed(_work: object, problems: list[Problem], _: int) -> list[Array]:
+        tried.extend(problems)
+        return [np.full(2, -np.inf)] * len(problems)
+
+    monkeypatch.setattr(resting, "side_by_side", listed)
+    here = fitted(fades, BIAS)
+    with_sign_beside(ended(fades, here), (BIAS,), lambda other: ended(other, here))
+    ways = [(one.model.at_rest, one.model.fading) for one in tried]
+    assert (AtRest.CARRIED, 0.4) in ways
+    assert (AtRest.INFLATING, 1.6) in ways
+    assert (AtRest.CARRIED, 1.6) not in ways
+
+
 def test_what_no_sign_has_a_part_in_is_not_searched_again() -> None:
     problem = _rising()
     found = ended(problem, fitted(problem, LATE))
