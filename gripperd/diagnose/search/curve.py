@@ -47,8 +47,7 @@ def beyond_curves(problem: Problem, point: Point, effect: Effect) -> float:
         places = [
             place
             for place, block in enumerate(problem.blocks)
-            if block.signal is signal
-            and np.any(np.abs(given[place] - without[place]) > 0)
+            if block.signal is signal and np.any(given[place] != without[place])
         ]
         if places:
             changes = [given[place] - without[place] for place in places]
