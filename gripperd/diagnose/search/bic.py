@@ -19,7 +19,9 @@ here had seen right names had -14 at most; three names above were wrong. [-]"""
 
 
 def delta_bic(problem: Problem, rival: Rival, without: Rival) -> float:
-    """Change of the BIC [1]_ by what a rival has more, of samples that noise leaves.
+    """Change of the BIC [1]_ by what a rival has more. [-].
+
+    Samples whose noise repeats that of their neighbours count for fewer.
 
     Parameters
     ----------
