@@ -188,9 +188,10 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
     gains = {one: around.fit(one).evidence - base for one in around.members}
     if not gains:
         return None
-    leader = max(gains, key=lambda one: gains[one]).candidate
-    if max(gains.values()) < NEAR * (best.best.evidence - found.null.evidence):
+    first = max(gains, key=lambda one: gains[one])
+    if gains[first] < NEAR * (best.best.evidence - found.null.evidence):
         return None
+    leader = first.candidate
     (told,) = larger(problem, found.null, [leader])
     # Of those with a moment one was chosen among many.
     alike = sum(one.name == leader.name for one in listed)
