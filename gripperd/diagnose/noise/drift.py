@@ -10,13 +10,19 @@ References
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.whitening import log_scale, whitened
+from gripperd.diagnose.noise.whitening import (
+    Clock,
+    clock_of,
+    innovations,
+    law_of,
+    log_scale,
+)
 from gripperd.model.track import Array
 
 SIZES = (0.0002, 0.0005, 0.001, 0.0015, 0.002, 0.003)
@@ -39,7 +45,8 @@ CAUTION = 0.7
 false alarms, too much only hides small effects. [-]"""
 
 
-class Quiet(NamedTuple):
+@dataclass(frozen=True)
+class Quiet:
     """A stretch in which only the noise should move."""
 
     time: Array
@@ -48,6 +55,11 @@ class Quiet(NamedTuple):
     """What else may move there, shape ``(n, k)``; always a constant."""
     loudness: float = 1.0
     """Standard deviation over that of a single reading: root 2 for differences."""
+
+    @cached_property
+    def clock(self) -> Clock:
+        """Of its samples."""
+        return clock_of(self.time)
 
 
 def with_drift(noise: Noise, quiet: Sequence[Quiet], full_scale: float) -> Noise:
@@ -131,13 +143,14 @@ def _likelihood(noise: Noise, quiet: Quiet) -> float:
         noise, std=noise.std * quiet.loudness, drift=noise.drift * quiet.loudness
     )
     columns = np.column_stack([quiet.regressors, quiet.residual])
-    white = whitened(columns, quiet.time, louder)
+    law = law_of(quiet.clock, louder)
+    white = innovations(columns, law)
     regressors, residual = white[:, :-1], white[:, -1]
     products = regressors.T @ regressors
     best = np.linalg.lstsq(regressors, residual, rcond=None)[0]
     rest = residual - regressors @ best
     volume = np.linalg.slogdet(products + 1e-12 * np.eye(products.shape[0]))[1]
-    return float(-0.5 * rest @ rest - 0.5 * volume) - log_scale(quiet.time, louder)
+    return float(-0.5 * rest @ rest - 0.5 * volume) - log_scale(law)
 
 
 def hold(time: Array, residual: Array, *, creeps: bool) -> Quiet:

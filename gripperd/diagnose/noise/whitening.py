@@ -36,7 +36,23 @@ def whitened(columns: Array, time: Array, noise: Noise) -> Array:
     -------
     Innovations, shape ``(n, k)``. [-]
     """
-    return innovations(columns, law_of(time, noise))
+    return innovations(columns, law_of(clock_of(time), noise))
+
+
+class Clock(NamedTuple):
+    """When samples were taken."""
+
+    steps: Array
+    """To each sample, in usual ones, shape ``(n,)``. [-]"""
+    seconds: Array
+    """The same. [s]"""
+
+
+def clock_of(time: Array) -> Clock:
+    """Give the clock of samples at some times, rising within a run. [s]."""
+    step = np.diff(time, prepend=time[:1])
+    usual = float(np.median(step[1:])) if step.size > 1 else 1.0
+    return Clock(step / usual, step)
 
 
 class Law(NamedTuple):
@@ -51,26 +67,25 @@ class Law(NamedTuple):
     deviation of the drift, variance of what is white."""
 
 
-def law_of(time: Array, noise: Noise, ages: Array | None = None) -> Law:
+def law_of(clock: Clock, noise: Noise, ages: Array | None = None) -> Law:
     """Give the law of a noise.
 
     Parameters
     ----------
-    time
-        Of the samples, rising within a run, shape ``(n,)``. [s]
+    clock
+        Of the samples.
     noise
         Of the residual.
     ages
         Memories that its drift has been through by each sample, where it does not go by
         the clock, shape ``(n,)``. [-]
     """
-    step = np.diff(time, prepend=time[:1])
-    usual = float(np.median(step[1:])) if step.size > 1 else 1.0
-    aged = step / noise.memory if ages is None else np.diff(ages, prepend=ages[:1])
+    steps, seconds = clock
+    aged = seconds / noise.memory if ages is None else np.diff(ages, prepend=ages[:1])
     slow = max(noise.drift, 1e-6 * noise.std)
     fast = noise.std * (1 - noise.white) ** 0.5
     sizes = fast, noise.persistence, slow, noise.std**2 * noise.white
-    return Law(step / usual, aged, np.array(sizes))
+    return Law(steps, aged, np.array(sizes))
 
 
 def innovations(columns: Array, law: Law) -> Array:
@@ -112,9 +127,9 @@ def _innovations(columns: Array, steps: Array, ages: Array, sizes: Array) -> Arr
     return out
 
 
-def log_scale(time: Array, noise: Noise) -> float:
+def log_scale(law: Law) -> float:
     """Sum of the log standard deviations of the innovations: the volume. [nat]."""
-    return compiled(_log_scales)(*law_of(time, noise))
+    return compiled(_log_scales)(*law)
 
 
 def _log_scales(steps: Array, ages: Array, sizes: Array) -> float:

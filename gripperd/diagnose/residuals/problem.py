@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.whitening import Law, innovations, law_of
+from gripperd.diagnose.noise.whitening import Law, clock_of, innovations, law_of
 from gripperd.diagnose.readings.course import Course, joined
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.residuals.block import Block, Group
@@ -266,7 +266,7 @@ class Problem:
     def _laws(self) -> list[Law]:
         """Law of the noise block by block."""
         return [
-            law_of(time, block.noise or self.noises[block.signal], block.ages)
+            law_of(clock_of(time), block.noise or self.noises[block.signal], block.ages)
             for block, time in zip(self.blocks, self.times, strict=True)
         ]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.whitening import innovations, law_of
+from gripperd.diagnose.noise.whitening import clock_of, innovations, law_of
 from gripperd.diagnose.residuals.block import Block
 from gripperd.diagnose.residuals.dead_band import SAW, UNIFORM, within_band
 from gripperd.model.effect import Signal
@@ -76,6 +76,6 @@ def test_stairs_in_a_band_look_like_its_noise() -> None:
         assert block.noise is not None
         time = 0.1 * np.arange(command.size)[block.good]
         left = (off + rng.normal(0.0, 1e3, command.size))[block.good]
-        law = law_of(time, block.noise, block.ages)
+        law = law_of(clock_of(time), block.noise, block.ages)
         squares.append(innovations(left[:, None], law).ravel() ** 2)
     assert np.mean(np.concatenate(squares)) == pytest.approx(1.0, abs=0.35)
