@@ -11,9 +11,9 @@ from gripperd.diagnose.readings.recording import Kind
 from gripperd.model.track import Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Course:
-    """A sweep without a pause, or several end to end.
+    """A sweep without a pause, or several end to end; each is itself alone.
 
     Arrays of shape ``(n,)`` in SI, NaN not measured.
     """

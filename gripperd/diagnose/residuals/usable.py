@@ -1,6 +1,7 @@
 """Samples of a sweep that say something about a stage."""
 
 from itertools import pairwise
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from scipy.ndimage import binary_dilation, uniform_filter1d
@@ -46,6 +47,9 @@ STANDS = 0.2
 """The same within which a pressure that has turned may as well stand, if that is no
 further than its trend is known. [-]"""
 
+_KNOWN: WeakKeyDictionary[Course, dict[Signal, Mask]] = WeakKeyDictionary()
+"""What was told before: a sweep is the same in every problem it is a part of."""
+
 
 def usable(course: Course, signal: Signal) -> Mask:
     """Samples of a signal that say something about its stage.
@@ -57,6 +61,13 @@ def usable(course: Course, signal: Signal) -> Mask:
     signal
         What is predicted.
     """
+    known = _KNOWN.setdefault(course, {})
+    if signal not in known:
+        known[signal] = _usable(course, signal)
+    return known[signal].copy()
+
+
+def _usable(course: Course, signal: Signal) -> Mask:
     measured = course.column(signal.value)
     good = np.isfinite(measured)
     for name in INPUTS[signal]:

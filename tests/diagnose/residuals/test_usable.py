@@ -39,6 +39,16 @@ def test_samples_next_to_a_reversal_say_nothing_of_the_force(
     assert bad[bad > 10].tolist() == list(range(turn - 2, turn + 4))
 
 
+def test_what_is_done_with_what_was_told_is_not_told_again(
+    silent: dict[str, Course],
+) -> None:
+    first = usable(silent["d"], Signal.FORCE)
+    kept = first.copy()
+    first[:] = False
+    np.testing.assert_array_equal(usable(silent["d"], Signal.FORCE), kept)
+    assert not np.array_equal(usable(silent["d"], Signal.PRESSURE), kept)
+
+
 def test_while_a_round_turn_goes_on_the_way_of_friction_is_not_known() -> None:
     time = np.arange(0.0, 28.0, 0.04)
     way = 0.05 * (1 - np.cos(2 * np.pi * time / 28.0))
