@@ -33,7 +33,10 @@ MOST_SLACK = 0.125
 
 
 def problem_of(
-    recording: Recording, model: Explanation, tolerances: Mapping[str, float]
+    recording: Recording,
+    model: Explanation,
+    tolerances: Mapping[str, float],
+    processes: int = 1,
 ) -> Problem:
     """Set up the diagnosis of one recording.
 
@@ -45,6 +48,8 @@ def problem_of(
         At its nominal constants.
     tolerances
         One sigma by path, as the model file states them. [SI]
+    processes
+        How many share the work, of this and of what is done with the problem.
 
     Raises
     ------
@@ -58,7 +63,7 @@ def problem_of(
         assert model.linkage is not None
         recording = through_jaws(recording, model.linkage, length)
         model = replace(model, told_length=length, told_by=model.linkage)
-    sweeps, noises = courses(recording, length)
+    sweeps, noises = courses(recording, length, processes)
     if model.told_by is not None and "grip" in noises:
         sweeps = tuple(with_held_way(sweep, noises["grip"]) for sweep in sweeps)
     if any(sweep.yields for sweep in sweeps):
@@ -69,7 +74,7 @@ def problem_of(
         for signal in INPUTS
         if signal.value in noises
     }
-    rough = _with_slack(Problem(sweeps, model, (), loud))
+    rough = _with_slack(Problem(sweeps, model, (), loud, processes=processes))
     check_plausible(rough, recording.name)
     check_coherent(rough, recording.name)
     # What is left out later must not even tell, by its misfit, how loud noise is.

@@ -296,6 +296,14 @@ def test_what_a_column_is_off_by_tells_why(factor: float, cause: str) -> None:
         problem_of(off, MODEL, {})
 
 
+def test_two_processes_set_up_what_one_does() -> None:
+    one, two = (problem_of(recording(), MODEL, {}, count) for count in (1, 2))
+    assert (one.processes, two.processes) == (1, 2)
+    assert two.noises == one.noises
+    for mine, theirs in zip(one.measured, two.measured, strict=True):
+        np.testing.assert_array_equal(theirs, mine)
+
+
 def test_no_reading_is_quieter_than_whoever_measured_it_says() -> None:
     plain = recording()
     stated = replace(plain, noise={"force": 30.0, "pressure": 10.0})

@@ -16,7 +16,7 @@ from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
 from scipy.optimize import Bounds, OptimizeResult, minimize
 from scipy.spatial.distance import cdist
 
-from gripperd.diagnose.fit.side_by_side import side_by_side
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.track import Array
 
 LENGTHS = (0.03, 30.0)

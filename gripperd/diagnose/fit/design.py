@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from gripperd.diagnose.fit.candidates import Candidate, amplitudes, side
 from gripperd.diagnose.fit.gram import Fit, Gram
-from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.constants import NUISANCE
 from gripperd.diagnose.residuals.point import FREED, Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.response import Base, responses, sensitivities
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.effect import Effect, Signal, Stage
 from gripperd.model.parameter import parameters
 from gripperd.model.track import Array

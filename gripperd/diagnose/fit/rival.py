@@ -8,9 +8,9 @@ import numpy as np
 
 from gripperd.diagnose.fit.candidates import Candidate
 from gripperd.diagnose.fit.polish import LEAST_ON, Polished, polished
-from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.parameter import in_use
 
 

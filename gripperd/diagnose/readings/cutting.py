@@ -26,6 +26,7 @@ from gripperd.diagnose.readings.supply import supply_drops
 from gripperd.diagnose.readings.table import lists_points
 from gripperd.diagnose.readings.travel import JAWS, STILL, contracting
 from gripperd.diagnose.readings.turn import turned
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.errors import InputError
 from gripperd.model.track import Array
 
@@ -38,7 +39,7 @@ LEAST = 4
 
 
 def courses(
-    recording: Recording, rest_length: float
+    recording: Recording, rest_length: float, processes: int = 1
 ) -> tuple[tuple[Course, ...], Mapping[str, Noise]]:
     """Cut a recording into sweeps and take the noise off what effects look at.
 
@@ -48,6 +49,8 @@ def courses(
         Screened.
     rest_length
         L_N, to which a measured length refers. [m]
+    processes
+        How many share the work.
 
     Returns
     -------
@@ -73,12 +76,16 @@ def courses(
     noises, on_stairs = _noises(recording, sweeps, rest_length)
     length = wandering(sweeps, noises.get("contraction", Noise(0.0, 0.0)))
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
+    smooth = side_by_side(
+        lambda sweep: levels(sweep, noises, length, on_stairs=on_stairs),
+        sweeps,
+        processes,
+    )
     found = [
         _course(sweep, smoothed, cycle, repeat, start, on_stairs=on_stairs)
-        for sweep, cycle, repeat in zip(
-            sweeps, cycles(sweeps), rows(sweeps), strict=True
+        for sweep, smoothed, cycle, repeat in zip(
+            sweeps, smooth, cycles(sweeps), rows(sweeps), strict=True
         )
-        for smoothed in [levels(sweep, noises, length, on_stairs=on_stairs)]
     ]
     if "contraction" in noises:
         found = with_yielding_frame(found, noises["contraction"])

@@ -15,7 +15,9 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.quiet import driven, moved, repeated, vented
 from gripperd.diagnose.residuals.ranges import ranges
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.effect import Signal
+from gripperd.model.track import Array
 
 POINTS = 0.002
 """Noise of settled points in a table, of full scale. [-]"""
@@ -55,35 +57,46 @@ def noises_of(
     Noise by signal. [SI]
     """
     residuals = problem.residuals(point)
-    found: dict[Signal, Noise] = {}
-    for signal in problem.signals:
-        indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
-        step = coarse_step(c.column(signal.value) for c in problem.courses)
-        noise = quick_noise((_share(problem, i) * residuals[i] for i in indices), step)
-        if signal is Signal.PRESSURE:
-            noise = _on_stairs(problem.courses) or noise
-        if is_table(problem.courses):
-            # Neighbours are no repeats of each other; instruments of a test stand.
-            noise = Noise(POINTS * problem.full_scale[signal], 0.0)
-        noise = audible(noise, signal, problem.courses)
-        noise = replace(noise, std=max(noise.std, stated.get(signal.value, 0.0)))
-        asked = problem, residuals, indices
-        quiet = [
-            *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
-        ]  # fmt: skip
-        quiet = shortened(quiet or repeated(*asked, first=True))
-        full_scale = problem.full_scale[signal]
-        noise = with_drift(noise, quiet, full_scale)
-        if not is_table(problem.courses):
-            # A joint with play begins each sweep elsewhere: repeats of one differ.
-            told = shortened(moved(*asked)) if signal is Signal.OPENING else quiet
-            # What a force hands on to a grip is told apart from it, see below.
-            own = signal is Signal.GRIP
-            most = WANDERS * (full_scale if own else ranges(problem)[signal])
-            noise = coloured(noise, told, most)
-            noise = with_drift(noise, quiet, full_scale)
-        found[signal] = noise
-    return _handed_on(found, problem)
+    heard = side_by_side(
+        lambda signal: _noise_of(problem, residuals, signal, stated),
+        problem.signals,
+        problem.processes,
+    )
+    return _handed_on(dict(zip(problem.signals, heard, strict=True)), problem)
+
+
+def _noise_of(
+    problem: Problem,
+    residuals: list[Array],
+    signal: Signal,
+    stated: Mapping[str, float],
+) -> Noise:
+    indices = [i for i, b in enumerate(problem.blocks) if b.signal is signal]
+    step = coarse_step(c.column(signal.value) for c in problem.courses)
+    noise = quick_noise((_share(problem, i) * residuals[i] for i in indices), step)
+    if signal is Signal.PRESSURE:
+        noise = _on_stairs(problem.courses) or noise
+    if is_table(problem.courses):
+        # Neighbours are no repeats of each other; instruments of a test stand.
+        noise = Noise(POINTS * problem.full_scale[signal], 0.0)
+    noise = audible(noise, signal, problem.courses)
+    noise = replace(noise, std=max(noise.std, stated.get(signal.value, 0.0)))
+    asked = problem, residuals, indices
+    quiet = [
+        *vented(problem, signal), *driven(*asked), *repeated(*asked, first=False)
+    ]  # fmt: skip
+    quiet = shortened(quiet or repeated(*asked, first=True))
+    full_scale = problem.full_scale[signal]
+    noise = with_drift(noise, quiet, full_scale)
+    if is_table(problem.courses):
+        return noise
+    # A joint with play begins each sweep elsewhere: repeats of one differ.
+    told = shortened(moved(*asked)) if signal is Signal.OPENING else quiet
+    # What a force hands on to a grip is told apart from it, see below.
+    own = signal is Signal.GRIP
+    most = WANDERS * (full_scale if own else ranges(problem)[signal])
+    noise = coloured(noise, told, most)
+    return with_drift(noise, quiet, full_scale)
 
 
 def _share(problem: Problem, index: int) -> float:

@@ -3,9 +3,12 @@
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 
+import numpy as np
+
 from gripperd.diagnose.fit.design import Design, Member
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.price import acts_on
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.effect import Signal
 
 FINALISTS = 4
@@ -54,12 +57,16 @@ def finalists(
         else [(one,) for one in around.members]
     )
     # Two forms of one name are no pair: the second takes the place of the first.
-    couples = (
+    couples = [
         (one, other)
         for one, other in combinations(best, 2)
         if one.candidate.name != other.candidate.name
+    ]
+    evidence = side_by_side(
+        lambda pair: around.fit(*pair).evidence, couples, problem.processes
     )
-    pairs = sorted(couples, key=lambda pair: -around.fit(*pair).evidence)
+    order = np.argsort(-np.array(evidence), kind="stable")
+    pairs = [couples[place] for place in order]
     return [*alone, *heard(problem, singles, pairs, FINALISTS)]
 
 

@@ -14,7 +14,6 @@ from gripperd.diagnose.fit.candidates import WRONG, Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, removed
-from gripperd.diagnose.fit.side_by_side import side_by_side
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -22,6 +21,7 @@ from gripperd.diagnose.residuals.stages import BRAIDED
 from gripperd.diagnose.residuals.track import TURNED
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.stepwise import NEXT, additions
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.effect import Signal
 
 DECIDED = 5.0

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -97,6 +98,23 @@ def test_what_the_leader_may_be_in_other_words_is_heard_however_it_ranks(
     }
     assert {trails, sticks, wakes} <= alone
     assert others[-1] not in alone
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_the_likeliest_pairs_come_first_however_many_share_the_work(
+    blank: Problem, ranked: list[Member], processes: int
+) -> None:
+    around = design(
+        blank, Point(np.zeros(len(blank.constants))), [one.candidate for one in ranked]
+    )
+    alone = {one: -float(place) for place, one in enumerate(around.members)}
+    shared = replace(blank, processes=processes)
+    told = finalists(shared, around, alone, thrifty=True)
+    evidence = [around.fit(*one).evidence for one in told if len(one) == 2]
+    assert len(evidence) == 4
+    assert evidence == sorted(evidence, reverse=True)
+    least = min(around.fit(*pair).evidence for pair in combinations(alone, 2))
+    assert least not in evidence
 
 
 def test_two_forms_of_one_name_are_no_pair(blank: Problem) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gripperd.diagnose.fit.side_by_side import side_by_side
+from gripperd.diagnose.side_by_side import side_by_side
 
 
 def test_two_processes_work_at_once_and_nothing_is_out_of_order() -> None:
