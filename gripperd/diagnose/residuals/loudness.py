@@ -9,6 +9,7 @@ import numpy as np
 from gripperd.diagnose.noise.drift import coloured, shortened, with_drift
 from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
 from gripperd.diagnose.readings.course import Course, is_table
+from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
 from gripperd.diagnose.residuals.doubt import of_length
 from gripperd.diagnose.residuals.point import Point
@@ -62,7 +63,8 @@ def noises_of(
         problem.signals,
         problem.processes,
     )
-    return _handed_on(dict(zip(problem.signals, heard, strict=True)), problem)
+    noises = dict(zip(problem.signals, heard, strict=True))
+    return _handed_on(noises, problem, residuals)
 
 
 def _noise_of(
@@ -120,27 +122,26 @@ def audible(noise: Noise, signal: Signal, sweeps: tuple[Course, ...]) -> Noise:
     return replace(noise, std=max(noise.std, RESOLUTION * top))
 
 
-def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, Noise]:
+def _handed_on(
+    noises: dict[Signal, Noise], problem: Problem, residuals: Sequence[Array]
+) -> dict[Signal, Noise]:
     """Give the grip what is wrong with the force that it is predicted from.
 
     Both are compared reading by reading, so that the residual has the noise of two
-    cells, and the drift of both beside what neither repeats when it turns round. None
-    is told from that residual, which is short, unless it is quieter by far: in a grasp
-    the readings of the grip rise fast. Sums keep the variance of a reading and of a
-    mean over many.
+    cells, and the drift of both beside what neither repeats when it turns round. Sums
+    keep the variance of a reading and of a mean over many.
     """
     force, grip, linkage = (
         noises.get(Signal.FORCE), noises.get(Signal.GRIP), problem.model.linkage,
     )  # fmt: skip
     if force is None or grip is None or linkage is None:
         return noises
-    own = grip if is_table(problem.courses) else _of_grip(problem)
-    fast = own.std**2 + (force.std / linkage.ratio) ** 2
-    mean = own.slow_variance + force.slow_variance / linkage.ratio**2
-    both = Noise(fast**0.5, (mean - fast) / (mean + fast))
-    apart = [one.std**2 * (1 - one.correlation) for one in (grip, own, force)]
-    if apart[0] < QUIETER * (apart[1] + apart[2] / linkage.ratio**2):
-        both = grip
+    handed = replace(force, std=force.std / linkage.ratio)
+    both = (
+        _sum(grip, handed)
+        if is_table(problem.courses)
+        else _of_both(problem, residuals, grip, handed)
+    )
     turned = REVERSIBLE * problem.full_scale[Signal.GRIP]
     slow = np.square([grip.drift, force.drift / linkage.ratio, turned])
     memory = float(np.average([grip.memory, force.memory, TURNS], weights=slow))
@@ -148,12 +149,49 @@ def _handed_on(noises: dict[Signal, Noise], problem: Problem) -> dict[Signal, No
     return noises | {Signal.GRIP: both}
 
 
-def _of_grip(problem: Problem) -> Noise:
-    """Noise of the grip's own cell, from its readings on an object."""
-    readings = [
-        problem.courses[block.course].column("grip")[block.good]
-        for block in problem.blocks
-        if block.signal is Signal.GRIP
+def _of_both(
+    problem: Problem, residuals: Sequence[Array], grip: Noise, handed: Noise
+) -> Noise:
+    """Noise of what a grip leaves: of its own cell, and handed on by the force.
+
+    Its own is told from its readings on an object. In a grasp these may rise so fast,
+    and be so few, that neighbours tell their rise; the residual, which has the noise of
+    both, is quieter then. It is as short, and so is not believed where it is quieter
+    than what is handed on, unless it is by far.
+    """
+    indices = [i for i, b in enumerate(problem.blocks) if b.signal is Signal.GRIP]
+    blocks = [problem.blocks[i] for i in indices]
+    readings = [problem.courses[b.course].column("grip")[b.good] for b in blocks]
+    pieces = [
+        piece
+        for block, i in zip(blocks, indices, strict=True)
+        for piece in _unbroken(residuals[i], block.good)
     ]
-    noise = quick_noise(readings, coarse_step(readings))
-    return audible(noise, Signal.GRIP, problem.courses)
+    step = coarse_step(readings)
+    own, unbroken = (
+        audible(quick_noise(each, step), Signal.GRIP, problem.courses)
+        for each in (readings, pieces)
+    )
+    left = _quieter(grip, unbroken)
+    apart = [one.std**2 * (1 - one.correlation) for one in (left, own, handed)]
+    if apart[0] < QUIETER * (apart[1] + apart[2]):
+        return left
+    told = _sum(_quieter(own, left), handed)
+    both = handed.slow_variance, left.slow_variance, told.slow_variance
+    return left if both[0] < both[1] < both[2] else told
+
+
+def _quieter(one: Noise, other: Noise) -> Noise:
+    return one if one.slow_variance < other.slow_variance else other
+
+
+def _sum(one: Noise, other: Noise) -> Noise:
+    fast = one.std**2 + other.std**2
+    mean = one.slow_variance + other.slow_variance
+    return Noise(fast**0.5, (mean - fast) / (mean + fast))
+
+
+def _unbroken(values: Array, good: Mask) -> list[Array]:
+    """Cut values of good samples where others lie between."""
+    cuts = np.flatnonzero(np.diff(np.flatnonzero(good)) > 1) + 1
+    return np.split(values, cuts)

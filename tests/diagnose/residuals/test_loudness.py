@@ -158,22 +158,26 @@ def gripping() -> Problem:
     return _gripping(recording())
 
 
+def _handed(told: dict[Signal, Noise], problem: Problem) -> dict[Signal, Noise]:
+    return _handed_on(told, problem, problem.residuals(_null(problem)))
+
+
 def test_the_force_hands_its_noise_and_drift_on_to_the_grip(gripping: Problem) -> None:
     told = {
-        Signal.FORCE: Noise(32.0, 0.5, drift=6.0, memory=60.0),
+        Signal.FORCE: Noise(12.0, 0.5, drift=6.0, memory=60.0),
         Signal.GRIP: Noise(7.0, 0.5, drift=0.5, memory=20.0),
     }
-    handed = _handed_on(told, gripping)[Signal.GRIP]
-    # By the ratio of 4: 32² N² and 36 N² over 16, and what the grip has of its own.
-    assert handed.std**2 == pytest.approx(32**2 / 16 + GRIP_NOISE**2, rel=0.03)
+    handed = _handed(told, gripping)[Signal.GRIP]
+    # By the ratio of 4: 12² N² and 36 N² over 16, and what the grip has of its own.
+    assert handed.std**2 == pytest.approx(12**2 / 16 + GRIP_NOISE**2, rel=0.06)
     turned = (0.003 * gripping.full_scale[Signal.GRIP]) ** 2
     assert handed.drift**2 == pytest.approx(36 / 16 + 0.25 + turned)
     # Means over many samples: three times the variance at a correlation of a half.
     mean = handed.std**2 * (1 + handed.correlation) / (1 - handed.correlation)
-    assert mean == pytest.approx(3 * 32**2 / 16 + GRIP_NOISE**2, rel=0.05)
+    assert mean == pytest.approx(3 * 12**2 / 16 + GRIP_NOISE**2, rel=0.05)
     slow = handed.drift**2 * handed.memory
     assert slow == pytest.approx(60 * 36 / 16 + 20 * 0.25 + 3 * turned)
-    assert _handed_on(told, gripping)[Signal.FORCE] == told[Signal.FORCE]
+    assert _handed(told, gripping)[Signal.FORCE] == told[Signal.FORCE]
 
 
 def test_a_force_that_wanders_under_its_noise_hands_that_on_as_well(
@@ -184,7 +188,7 @@ def test_a_force_that_wanders_under_its_noise_hands_that_on_as_well(
     neighbours = quick_noise([noise(400, 1.5, 3)])
     assert neighbours.slow_variance < 0.1 * force.slow_variance / 16
     told = {Signal.FORCE: force, Signal.GRIP: neighbours}
-    handed = _handed_on(told, gripping)[Signal.GRIP]
+    handed = _handed(told, gripping)[Signal.GRIP]
     own = force.slow_variance / 16 + GRIP_NOISE**2
     assert handed.slow_variance == pytest.approx(own, rel=0.2)
 
@@ -192,7 +196,7 @@ def test_a_force_that_wanders_under_its_noise_hands_that_on_as_well(
 def test_without_a_linkage_nothing_is_handed_on(gripping: Problem) -> None:
     told = {Signal.FORCE: Noise(8.0, 0.5), Signal.GRIP: Noise(3.0, 0.0)}
     bare = replace(gripping, model=MODEL)
-    assert _handed_on(told, bare) == told
+    assert _handed(told, bare) == told
 
 
 @pytest.mark.parametrize("loud", [4.0, 16.0])
@@ -228,6 +232,39 @@ def test_a_grip_that_rises_fast_is_no_noise() -> None:
     problem = problem_of(Recording("grasps", "0" * 64, tuple(runs)), JAWED, {})
     both = float(np.hypot(GRIP_NOISE, FORCE_NOISE / 4))
     assert problem.noises[Signal.GRIP].std == pytest.approx(both, rel=0.25)
+
+
+def test_a_grip_that_rises_and_falls_in_few_readings_is_no_noise() -> None:
+    """Grasps at 3 Hz, each with a second squeeze; their joints rub by 3 % of the load.
+
+    Neighbours on an object differ by 7 N, but for two that jaws turn round between.
+    """
+    rng = np.random.default_rng(4)
+    runs = []
+    for place, held in enumerate((0.02, 0.03, 0.04, 0.05, 0.06, 0.07)):
+        since = np.arange(0.0, 17.0, 0.3)
+        knots = [0.0, 6.0, 9.0, 12.0, 17.0]
+        loads = [0.0, 480e3, 240e3, 400e3, 0.0]
+        pressure = np.interp(since, knots, loads)
+        size, level = since.size, np.ones(since.size)
+        force = textbook(
+            Moment(2000 + 100 * place + since, pressure, held * level, level)
+        )
+        rubs = np.where(np.gradient(pressure) < 0, -0.03, 0.03) * force
+        grip = np.maximum((force - rubs - 240.0 - 1000.0 * 0.25 * held) / 4, 0.0)
+        columns = {
+            "time": 2000 + 100 * place + since,
+            "pressure": pressure + rng.normal(0.0, PRESSURE_NOISE, size),
+            "contraction": held + rng.normal(0.0, 2e-5, size),
+            "force": force + rng.normal(0.0, FORCE_NOISE, size),
+            "grip": grip + rng.normal(0.0, GRIP_NOISE, size),
+        }
+        runs.append(Run(f"grasp_{place}", columns))
+    told = recording()
+    problem = problem_of(replace(told, runs=(*told.runs, *runs)), JAWED, {})
+    both = float(np.hypot(GRIP_NOISE, FORCE_NOISE / 4))
+    found = problem.noises[Signal.GRIP]
+    assert found.slow_variance**0.5 == pytest.approx(both, rel=0.5)
 
 
 def test_a_noisy_force_hides_no_contact(gripping: Problem) -> None:
