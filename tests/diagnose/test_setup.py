@@ -21,6 +21,7 @@ from tests.diagnose.small import (
     Hidden,
     Moment,
     altered,
+    moments,
     nothing,
     recording,
     tabled,
@@ -101,6 +102,34 @@ def test_a_cell_whose_zero_is_off_pulls_at_no_slack_cord(
     found = diagnose(told, MODEL, {}, {one: EFFECTS[one] for one in rivals})
     assert [entry.name for entry in found.named] == [name]
     assert found.verdict is Verdict.NAMED
+
+
+@pytest.mark.parametrize(("told", "zero"), [(7, 0.0), (19, 40.0)])
+def test_a_few_readings_of_a_slack_cord_tell_a_zero_if_they_stay(
+    told: int, zero: float
+) -> None:
+    """Where the model would push by 20 to 220 N, the less the higher the pressure."""
+
+    def few(run: Run) -> Run:
+        moment = moments()[run.name]
+        slack = textbook(moment) < -5.0
+        if run.name == "c":
+            slack[np.flatnonzero(slack)[:told]] = False
+        force = np.where(slack, np.nan, run.columns["force"])
+        return replace(run, columns={**run.columns, "force": force})
+
+    plain = recording(_cord(lambda moment: 40.0 + 0.0 * moment.time))
+    problem = problem_of(replace(plain, runs=tuple(map(few, plain.runs))), MODEL, {})
+    assert problem.zero == pytest.approx(zero, abs=4.0)
+
+
+def test_few_readings_that_stay_where_the_model_stays_tell_no_zero() -> None:
+    time = 900.0 + np.arange(12.0)
+    vented = {"time": time, "pressure": 0 * time, "contraction": 0.04 + 0 * time}
+    force = 40.0 + noise(12, 3.0, 7)
+    pulled = [run for run in recording().runs if run.name in "aef"]
+    told = Recording("h", "0" * 64, (*pulled, Run("v", {**vented, "force": force})))
+    assert problem_of(told, MODEL, {}).zero == 0.0
 
 
 def test_a_muscle_that_is_held_and_pushes_is_not_slack() -> None:

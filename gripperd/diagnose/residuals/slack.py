@@ -12,8 +12,12 @@ from gripperd.model.effect import Signal
 
 PUSHES = 0.5
 """Share of the force from which a muscle is taut by which it would have to push. [-]"""
-FEWEST = 20
+MANY = 20
 """Readings that tell a zero."""
+FEWEST = 8
+"""The same where they stay while the model would have them change."""
+STAYS = 5.0
+"""Times more than they do. [-]"""
 SAME = 2.0
 """Standard deviations of a reading within which they are the same. [-]"""
 NEAR = 0.5
@@ -55,6 +59,7 @@ def zero_of_slack(problem: Problem, taut: float, *, pushes: bool) -> float | Non
     slack = expected < -PUSHES * taut
     if slack.sum() < FEWEST:
         return None
+    few = slack.sum() < MANY
     clock = time[slack] - time[slack].mean()
     line = np.column_stack([np.ones_like(clock), clock])
     read = np.column_stack([measured[slack], (measured - expected)[slack]])
@@ -65,5 +70,8 @@ def zero_of_slack(problem: Problem, taut: float, *, pushes: bool) -> float | Non
     if abs(zero) >= MOST * problem.full_scale[Signal.FORCE]:
         return None
     if of_slack >= same or (pushes and of_held < same):
+        return None
+    # Of one sweep a drift is not told from the push of a muscle that is held.
+    if few and np.std(expected[slack]) < STAYS * np.std(measured[slack]):
         return None
     return zero if abs(zero) > NEAR * taut else 0.0
