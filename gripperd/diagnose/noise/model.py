@@ -63,6 +63,11 @@ class Noise:
         return float(np.hypot(self.std, self.drift))
 
 
+def quieter(one: Noise, other: Noise) -> Noise:
+    """Give that of two noises which a mean over many samples hears less of."""
+    return one if one.slow_variance < other.slow_variance else other
+
+
 def quick_noise(
     pieces: Iterable[Array], step: float = 0.0, shortest: int = SHORT
 ) -> Noise:

@@ -6,7 +6,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from gripperd.diagnose.noise.model import LONG, Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.model import (
+    LONG,
+    Noise,
+    coarse_step,
+    quick_noise,
+    quieter,
+)
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.clamped import clamped
 from gripperd.diagnose.readings.command import as_commanded, stillness
@@ -75,6 +81,11 @@ def courses(
     sweeps = as_commanded(sweeps)
     noises, on_stairs = _noises(recording, sweeps, rest_length)
     length = wandering(sweeps, noises.get("contraction", Noise(0.0, 0.0)))
+    if "contraction" in noises:
+        # Of a way that seldom is the same for long neighbours tell its turns as well.
+        least = _stated(recording, rest_length).get("contraction", 0.0)
+        known = quieter(length, noises["contraction"])
+        noises["contraction"] = replace(known, std=max(known.std, least))
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
     smooth = side_by_side(
         lambda sweep: levels(sweep, noises, length, on_stairs=on_stairs),
@@ -123,15 +134,20 @@ def _noises(
         rest = noise_held(readings.get("pressure", []))
     if stepped:
         noises["pressure"] = stepped
-    elif rest and rest.slow_variance < noises["pressure"].slow_variance:
-        noises["pressure"] = rest
-    stated = dict(recording.noise)
-    if "length" in stated:
-        stated.setdefault("contraction", stated["length"] / rest_length)
-    for name, std in stated.items():
+    elif rest:
+        noises["pressure"] = quieter(rest, noises["pressure"])
+    for name, std in _stated(recording, rest_length).items():
         if name in noises and std > noises[name].std:
             noises[name] = Noise(std, noises[name].correlation)
     return noises, stepped is not None
+
+
+def _stated(recording: Recording, rest_length: float) -> Mapping[str, float]:
+    """Noise as whoever measured knows it, of the contraction as well."""
+    stated = dict(recording.noise)
+    if "length" in stated:
+        stated.setdefault("contraction", stated["length"] / rest_length)
+    return stated
 
 
 def _course(

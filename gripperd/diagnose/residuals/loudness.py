@@ -7,7 +7,7 @@ from types import MappingProxyType
 import numpy as np
 
 from gripperd.diagnose.noise.drift import coloured, shortened, with_drift
-from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise
+from gripperd.diagnose.noise.model import Noise, coarse_step, quick_noise, quieter
 from gripperd.diagnose.readings.course import Course, is_table
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.stairs import Sweep, noise_on_stairs
@@ -155,9 +155,9 @@ def _of_both(
     """Noise of what a grip leaves: of its own cell, and handed on by the force.
 
     Its own is told from its readings on an object. In a grasp these may rise so fast,
-    and be so few, that neighbours tell their rise; the residual, which has the noise of
-    both, is quieter then. It is as short, and so is not believed where it is quieter
-    than what is handed on, unless it is by far.
+    and be so few, that neighbours tell their rise; then the residual is quieter, which
+    has the noise of both and more than its own. It is as short, and so what is handed
+    on is not taken off, unless it is quieter by far.
     """
     indices = [i for i, b in enumerate(problem.blocks) if b.signal is Signal.GRIP]
     blocks = [problem.blocks[i] for i in indices]
@@ -172,17 +172,11 @@ def _of_both(
         audible(quick_noise(each, step), Signal.GRIP, problem.courses)
         for each in (readings, pieces)
     )
-    left = _quieter(grip, unbroken)
+    left = quieter(grip, unbroken)
     apart = [one.std**2 * (1 - one.correlation) for one in (left, own, handed)]
     if apart[0] < QUIETER * (apart[1] + apart[2]):
         return left
-    told = _sum(_quieter(own, left), handed)
-    both = handed.slow_variance, left.slow_variance, told.slow_variance
-    return left if both[0] < both[1] < both[2] else told
-
-
-def _quieter(one: Noise, other: Noise) -> Noise:
-    return one if one.slow_variance < other.slow_variance else other
+    return _sum(quieter(own, left), handed)
 
 
 def _sum(one: Noise, other: Noise) -> Noise:

@@ -171,6 +171,26 @@ def test_runs_too_short_to_be_sweeps_are_refused() -> None:
         courses(Recording("torn", "0" * 64, pieces), REST_LENGTH)
 
 
+@pytest.mark.parametrize("stated", [0.0, 5e-3])
+def test_where_a_length_is_held_its_noise_is_not_told_from_quick_ways(
+    stated: float,
+) -> None:
+    """Three held lengths, and three that swing in forty samples: read by 1e-3.
+
+    By its neighbours alone that noise lasts, and a mean over many hears 20e-3 of it.
+    """
+    quick = 0.04 * (1 - np.cos(2 * np.pi * np.arange(160) / 40))
+    held = np.r_[np.linspace(0.0, 0.05, 6), np.full(100, 0.05)]
+    runs = tuple(
+        run(f"{place}", contraction=each + noise(each.size, 1e-3, place))
+        for place, each in enumerate([quick, held] * 3)
+    )
+    told = Recording("r", "0" * 64, runs, noise={"contraction": stated})
+    found = courses(told, REST_LENGTH)[1]["contraction"]
+    assert found.std >= max(stated, 1e-3)
+    assert found.slow_variance**0.5 < 4e-3 or stated
+
+
 def test_the_noise_of_a_length_is_that_of_its_contraction() -> None:
     length = REST_LENGTH * (1 - 0.2 * triangle(low=0.0, high=1.0))
     sweep = run(pressure=triangle(), length=length + noise(400, 1e-5))
