@@ -17,6 +17,7 @@ from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 from tests.diagnose.held import COMPLIANCE, held
 from tests.diagnose.small import (
+    LINKAGE,
     MODEL,
     Hidden,
     Moment,
@@ -26,6 +27,7 @@ from tests.diagnose.small import (
     recording,
     tabled,
     textbook,
+    with_grip,
     without,
 )
 from tests.diagnose.sweep import noise
@@ -341,3 +343,9 @@ def test_no_reading_is_quieter_than_whoever_measured_it_says() -> None:
     quiet = known[Signal.PRESSURE].std
     assert told[Signal.PRESSURE].std == pytest.approx(quiet)
     assert quiet > 500.0
+
+
+def test_nor_is_a_grip_that_is_held_against_a_force() -> None:
+    told = replace(with_grip(recording()), noise={"grip": 8.0})
+    jawed = replace(MODEL, linkage=LINKAGE)
+    assert problem_of(told, jawed, {}).noises[Signal.GRIP].std == 8.0

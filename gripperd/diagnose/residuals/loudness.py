@@ -64,7 +64,10 @@ def noises_of(
         problem.processes,
     )
     noises = dict(zip(problem.signals, heard, strict=True))
-    return _handed_on(noises, problem, residuals)
+    return {
+        signal: replace(noise, std=max(noise.std, stated.get(signal.value, 0.0)))
+        for signal, noise in _handed_on(noises, problem, residuals).items()
+    }
 
 
 def _noise_of(
