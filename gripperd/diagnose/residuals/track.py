@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from types import MappingProxyType
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -20,6 +21,11 @@ AWAKE = 5e3
 """Pressure over which a regulator comes to its line that vents below it. [Pa]"""
 LEAST_TURNED = 3e3
 """The same, at least. [Pa]"""
+
+_KNOWN: WeakKeyDictionary[Course, dict[AtRest, tuple[tuple[float, ...], Array]]] = (
+    WeakKeyDictionary()
+)
+"""Directions of sweeps, and what they were told from."""
 
 
 def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
@@ -163,7 +169,22 @@ def _of_opening(explanation: Explanation, course: Course, opening: Array) -> Arr
 
 
 def directions(explanation: Explanation, course: Course, *places: int) -> Array:
-    """Direction of travel; before there was any, the sign of what it is held by."""
+    """Direction of travel; before there was any, the sign of what it is held by.
+
+    Told once for as long as nothing changes that it depends on; not to be written to.
+    """
+    signs = tuple(explanation.rests.get(place, 1.0) for place in places)
+    key = explanation.winding, explanation.fading, explanation.stiction, *signs
+    known = _KNOWN.setdefault(course, {})
+    last = known.get(explanation.at_rest)
+    if last is None or last[0] != key:
+        last = key, _directions(explanation, course, *places)
+        last[1].flags.writeable = False
+        known[explanation.at_rest] = last
+    return last[1]
+
+
+def _directions(explanation: Explanation, course: Course, *places: int) -> Array:
     found = course.direction.copy()
     share = TURNED.get(explanation.at_rest, 0.0)
     for piece, place in zip(course.slices, places, strict=True):

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -222,6 +223,40 @@ def test_what_a_frame_holds_that_yields_turns_over_its_way() -> None:
     np.testing.assert_allclose(signs[140:], -1.1)
     still = replace(course, yields=False)
     assert directions(turning, still, 0)[120] == pytest.approx(-1.1)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"rests": {0: -0.6}}, {"winding": 2e-4}, {"fading": 3.0}, {"stiction": 0.3},
+        {"at_rest": AtRest.YIELDING}, {"winding": 0.0},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_a_way_that_was_told_is_told_anew_once_anything_changes(
+    change: dict[str, Any],
+) -> None:
+    plain = _courses(recording())["b"]
+    way = 5e-6 * np.append(np.arange(0.0, 100.0), np.arange(100.0, 0.0, -1.0))
+    course = replace(
+        plain,
+        measured={"pressure": 1e9 * way},
+        smooth={"contraction": Smooth(0.08 + way, 0.0 * way)},
+        time=0.1 * np.arange(200.0),
+        direction=0.0 * way,
+        rested=0.01 * np.arange(200.0),
+        stood=0.01 * np.arange(200.0),
+        yields="at_rest" not in change,
+    )
+    before = replace(
+        MODEL, at_rest=AtRest.INFLATING, winding=1e-4, rests={0: 0.4}, fading=9.0
+    )
+    first = directions(before, course, 0)
+    told = directions(replace(before, **change), course, 0)
+    alone = directions(replace(before, **change), replace(course), 0)
+    np.testing.assert_array_equal(told, alone)
+    assert not np.array_equal(told, first)
+    np.testing.assert_array_equal(directions(before, course, 0), first)
 
 
 def test_a_regulator_that_vents_comes_to_its_line_by_and_by() -> None:
