@@ -39,7 +39,9 @@ def with_usual_tolerances(found: Found, best: Contest) -> Contest:
     count = len(rival.candidates)
     # Here nobody pays for how far parts are off: the question is whether one is alone.
     lead = rival.evidence - here.evidence - here.fit.point.surprise
-    if count < SEVERAL or lead < -SURE:
+    # Those and more are no better an answer than those alone.
+    least = 0.0 if set(here.names) < set(rival.names) else -SURE
+    if count < SEVERAL or lead < least:
         return best
     alike = (here,) if lead <= SURE and here.names[0] not in rival.names else ()
     # They go together: none of them is an explanation without the others.

@@ -97,11 +97,13 @@ def test_an_effect_is_told_whatever_the_tolerances() -> None:
     assert [entry.name for entry in found.named] == ["threshold_pressure"]
 
 
-def _behind(both: Diagnosis, lead: float) -> Contest:
+GAIN = Candidate("valve_gain", ValveGain())
+
+
+def _behind(both: Diagnosis, lead: float, told: Candidate = GAIN) -> Contest:
     """A contest that the constants lead by so much."""
     fit = both.contest.best.fit
-    gain = Candidate("valve_gain", ValveGain())
-    rival = Rival((gain,), replace(fit, cost=fit.cost + 2 * lead))
+    rival = Rival((told,), replace(fit, cost=fit.cost + 2 * lead))
     return Contest(rival, (Place(both.found.null),))
 
 
@@ -109,6 +111,17 @@ def test_an_effect_that_explains_as_much_stays_a_rival(both: Diagnosis) -> None:
     told = with_usual_tolerances(both.found, _behind(both, 0.5 * SURE))
     assert told.equivalents[0] == ("valve_gain",)
     assert not any(told.equivalents[1:])
+
+
+@pytest.mark.parametrize("lead", [-0.5 * SURE, 0.5 * SURE])
+def test_one_part_that_explains_as_much_as_several_is_told_alone(
+    both: Diagnosis, lead: float
+) -> None:
+    index = [one.path for one in both.found.problem.constants].index("muscle.diameter")
+    best = _behind(both, lead, Candidate(BORE, None, index))
+    told = with_usual_tolerances(both.found, best)
+    assert told.best.names == ((BORE,) if lead < 0 else both.contest.best.names)
+    assert not any(told.equivalents)
 
 
 def test_an_effect_that_explains_less_is_none(both: Diagnosis) -> None:
