@@ -14,9 +14,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
 from gripperd.model.memory import begin, lag
+from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
+from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
 SPACING = 6.0
@@ -39,15 +42,24 @@ class Creeping(StrEnum):
     """What the stretched bladder pulls back with: it relaxes after a stroke."""
 
 
+class Holding(StrEnum):
+    """When the pull is as the rest of the model has it."""
+
+    SETTLED = "settled"
+    """Once all has come: the constants are those of a muscle that has rested."""
+    AT_ONCE = "at_once"
+    """Before anything has: from there the muscle gives in, or goes on to pull."""
+
+
 @dataclass(frozen=True, slots=True)
 class Creep(InMuscle):
     r"""Part of the pull, of the pressure, or of what rubber takes, comes late.
 
     With a series of time constants:
 
-    .. math:: F = F_0 - c \sum_{i=0}^{2} a_i (u - u_i), \quad
+    .. math:: F = F_0 - c \sum_{i=0}^{2} a_i (s u - u_i), \quad
               \tau_i \dot u_i = u - u_i, \quad \tau_i = 6^i \tau, \quad
-              u = p \left[A(0) + l (A(h) - A(0))\right] - 5 b F_s(h), \quad c = 1
+              u = p \left[A(0) + l (A(h) - A(0))\right] - 5 b F_s(h), \quad c = s = 1
 
     with the leverage l of the length on what creeps: 1 when the pull itself does, 0
     when it pulls as at rest length. Of what the stretch of the rubber takes of it by
@@ -55,8 +67,9 @@ class Creep(InMuscle):
     more, below 0 when it relaxes. A bladder that passes the pressure on late has
     ``u = p`` and pulls at the length of now, ``c = A(h)``, so that a travel under a
     settled pressure calls nothing up. One that relaxes under its own stretch alone has
-    ``u = 5 F_s(h)``. Once settled it adds nothing. A record that begins under a load
-    goes on from a wait under it, which may have been long.
+    ``u = 5 F_s(h)``. Once settled it adds nothing. Where the rest of the model holds at
+    once instead, ``s = 0``, it adds nothing to begin with. A record that begins under a
+    load goes on from a wait under it, which may have been long.
     """
 
     name: ClassVar[str] = "creep"
@@ -102,6 +115,17 @@ class Creep(InMuscle):
 
     of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
     """What comes late."""
+    holds: Holding = choice(Holding)  # noqa: RUF009  (declares)
+    """When the pull is as the rest of the model has it."""
+
+    def force(self, at: MuscleState, muscle: Muscle) -> Real:
+        """Force once all has settled: none, or all that has come since. [N]."""
+        if self.holds is Holding.SETTLED:
+            return 0.0 * at.contraction
+        area = muscle.pull_area(at.contraction)
+        load = self._load(at, area, muscle) - self._beside(at, muscle)
+        shares = self.fast + self.medium + self.slow
+        return shares * load * (area if self.of is Creeping.PRESSURE else 1.0)
 
     def rest(self) -> Array:
         """Three lags that have not begun."""
@@ -109,9 +133,10 @@ class Creep(InMuscle):
 
     def along(self, value: Array, track: Track, memory: Array) -> Array:
         """Take from the pull what has not come yet."""
-        pull = self._load(track)
-        beside = self.stretch if self.of is Creeping.PULL else 0.0
-        load = pull - beside * _stretched(track) if beside else pull
+        at, muscle = track.state, track.muscle
+        pull = np.asarray(self._load(at, track.pull_area, muscle))
+        load = np.asarray(pull - self._beside(at, muscle))
+        ahead = load if self.holds is Holding.SETTLED else 0.0
         late = np.zeros_like(load)
         if np.isnan(memory).all() and load.size:
             left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
@@ -120,23 +145,27 @@ class Creep(InMuscle):
             if share:
                 time = self.time * SPACING**index
                 state = memory[index : index + 1]
-                late += share * (load - lag(load, track.step, time, state))
+                late += share * (ahead - lag(load, track.step, time, state))
         if self.of is Creeping.PRESSURE:
             late *= track.pull_area
         return value - late
 
-    def _load(self, track: Track) -> Array:
+    def _load(self, at: MuscleState, area: Real, muscle: Muscle) -> Real:
         """What creeps goes after, but for the stretch beside. [N], or pressure [Pa]."""
         if self.of is Creeping.PRESSURE:
-            return track.pressure
+            return at.pressure
         if self.of is Creeping.RUBBER:
-            return _stretched(track)
-        rest = track.muscle.pull_area(0.0)
-        area = rest + self.leverage * (track.pull_area - rest)
-        return np.asarray(track.pressure * area)
+            return _stretched(at, muscle)
+        rest = muscle.pull_area(0.0)
+        return at.pressure * (rest + self.leverage * (area - rest))
+
+    def _beside(self, at: MuscleState, muscle: Muscle) -> Real:
+        """What the stretch of the rubber takes of that. [N]."""
+        if self.of is not Creeping.PULL or self.stretch == 0:
+            return 0.0
+        return self.stretch * _stretched(at, muscle)
 
 
-def _stretched(track: Track) -> Array:
+def _stretched(at: MuscleState, muscle: Muscle) -> Real:
     """Force of the rubber by eq. (5), as large as the pull. [N]."""
-    ratio = track.diameter_ratio
-    return np.asarray(RUBBER * track.muscle.elastic_force(track.contraction, ratio))
+    return RUBBER * muscle.elastic_force(at.contraction, at.diameter_ratio)
