@@ -14,6 +14,7 @@ from gripperd.effects import EFFECTS
 from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
+    MUSCLE,
     REGULATOR,
     STEP,
     Moment,
@@ -108,6 +109,36 @@ def test_stretch_that_creeps_beside_the_pull_is_no_memory_of_strands() -> None:
 
     library = {one: EFFECTS[one] for one in ("creep", "presliding_hysteresis")}
     told = diagnose(recording(creeping), MODEL, {}, library)
+    assert [entry.name for entry in told.named] == ["creep"]
+    assert told.verdict is Verdict.NAMED
+
+
+@pytest.mark.parametrize("share", [0.08, 0.12])
+def test_a_muscle_that_gives_in_from_what_its_model_has_is_of_its_size(
+    share: float,
+) -> None:
+    """By a stretched exponential, and so at last by 8 % or 12 % of each step."""
+
+    def giving(moment: Moment) -> Array:
+        load = moment.pressure * moment.pull_area
+        given = np.zeros_like(load)
+        for at, step in enumerate(np.diff(load, prepend=0.0)):
+            since = np.maximum(moment.time - moment.time[at], 0.0)
+            given += step * -np.expm1(-np.sqrt(since / 8.0))
+        return -share * given
+
+    tolerances = {
+        f"muscle.{name}": tolerance * getattr(MUSCLE, name)
+        for name, tolerance in {
+            "rest_length": 0.001, "diameter": 0.002, "braid_angle": 0.002,
+            "wall_thickness": 0.01, "elastic_modulus": 0.01,
+        }.items()
+    }  # fmt: skip
+    library = {
+        one: EFFECTS[one]
+        for one in ("creep", "threshold_pressure", "force_sensor_gain")
+    }
+    told = diagnose(recording(giving), MODEL, tolerances, library)
     assert [entry.name for entry in told.named] == ["creep"]
     assert told.verdict is Verdict.NAMED
 

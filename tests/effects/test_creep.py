@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.effects.creep import Creep, Creeping
+from gripperd.effects.creep import Creep, Creeping, Holding
 from gripperd.model import Muscle
+from gripperd.model.effect import MuscleState
 from gripperd.model.track import Array
 from tests.effects.tracks import track_of
 
@@ -111,6 +112,30 @@ def _pressed(muscle: Muscle, pressure: Array, contraction: Array) -> Array:
     )
     effect = replace(CREEP, of=Creeping.PRESSURE)
     return -effect.along(np.zeros_like(TIME), track, effect.rest())
+
+
+def test_where_the_model_holds_at_once_all_that_comes_later_is_beyond_it(
+    muscle: Muscle,
+) -> None:
+    pressure = np.where(TIME > 0, 400e3, 0.0)
+    pull = 400e3 * float(muscle.pull_area(0.0))
+    beyond = -late(muscle, replace(CREEP, holds=Holding.AT_ONCE), pressure)
+    come = pull * SHARES.sum() - left_of(pull)
+    assert beyond[1:] == pytest.approx(come[1:], rel=1e-6)
+
+
+@pytest.mark.parametrize("of", Creeping)
+@pytest.mark.parametrize("holds", Holding)
+def test_its_static_force_is_what_a_long_wait_leaves(
+    muscle: Muscle, of: Creeping, holds: Holding
+) -> None:
+    effect = replace(CREEP, of=of, holds=holds, leverage=0.4, stretch=0.3)
+    at = MuscleState(300e3, 0.1, muscle.diameter_ratio(0.1), 1.0)
+    step = np.array([0.0, 1e5])
+    track = track_of(muscle, time=step, step=step, pressure=300e3, contraction=0.1)
+    settled = effect.along(np.zeros(2), track, effect.rest())[-1]
+    assert effect.force(at, muscle) == pytest.approx(settled, rel=1e-9)
+    assert (settled != 0) == (holds is Holding.AT_ONCE)
 
 
 def test_what_has_settled_stays(muscle: Muscle) -> None:
