@@ -32,6 +32,10 @@ NEAR = 0.5
 VENTED = 0.01
 """Share of the line below which a regulator vents, and keeps nothing. [-]"""
 
+KEPT = 3.0
+"""Range of temperature within which a room is kept: what goes with it there and what is
+the same throughout are not to be told apart. [K]"""
+
 
 class _OfCell(InSensor, ABC):
     """Something is added to the reading of the force."""
@@ -203,7 +207,9 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
 
 
 def _artefacts(problem: Problem) -> Iterator[Effect]:
-    if any(np.isfinite(c.level("temperature")).any() for c in problem.courses):
+    warmth = np.concatenate([course.level("temperature") for course in problem.courses])
+    known = warmth[np.isfinite(warmth)]
+    if known.size and np.ptp(known) > KEPT:
         yield WarmCell(rate=0.5)
     if any(course.supply_drop.any() for course in problem.courses):
         yield SetPoint(rate=0.1, offset=5e3)

@@ -21,6 +21,7 @@ from gripperd.diagnose.verdict.artefact import (
     artefact,
 )
 from gripperd.effects.fatigue import Fatigue
+from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.force_sensor_drift import ForceSensorDrift
 from gripperd.effects.supply_saturation import SupplySaturation
 from gripperd.effects.temperature_stiffness import TemperatureStiffness
@@ -162,6 +163,22 @@ def test_a_zero_that_goes_with_the_temperature_is_no_stiffness() -> None:
     _, seen = _seen(told, TemperatureStiffness(modulus=0.005), "zero.contraction")
     assert isinstance(seen, WarmCell)
     assert seen.rate == pytest.approx(1.5, abs=0.15)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_in_a_room_that_keeps_its_warmth_a_zero_does_not_go_with_it(seed: int) -> None:
+    """At 22 °C it is off by 25 N throughout, not by 12 N for each kelvin above 20."""
+    random = np.random.default_rng(seed)
+    told = recording(lambda moment: np.full(moment.time.size, -25.0))
+    runs = [
+        replace(run, columns={**run.columns, "temperature": np.full(len(run), warm)})
+        for run, warm in zip(
+            told.runs, random.uniform(295.1, 295.2, len(told.runs)), strict=True
+        )
+    ]
+    found, best = _found(replace(told, runs=tuple(runs)), ForceSensorBias(bias=-5.0))
+    assert best.best.names == ("force_sensor_bias",)
+    assert artefact(found, best) is None
 
 
 def _all_but_as_likely(found: Found, best: Contest, seen: Artefact) -> Contest:
