@@ -16,15 +16,18 @@ import numpy as np
 
 from gripperd.model.effect import MuscleState
 from gripperd.model.kinds import InMuscle
-from gripperd.model.memory import begin, lag
+from gripperd.model.memory import begin
 from gripperd.model.muscle import Muscle
 from gripperd.model.parameter import amplitude, choice, shape
+from gripperd.model.prony import followed
 from gripperd.model.real import Real
 from gripperd.model.track import Array, Track
 
 SPACING = 6.0
 """Ratio of neighbouring time constants. Three terms this far apart follow a
 logarithmic law over two decades within 4 % of its rise. [-]"""
+WAITS = SPACING ** (1 - np.arange(3.0))
+"""Times in which a wait passes for each of them, the middle one its own. [-]"""
 
 RUBBER = 5.0
 """Times the force of eq. (5) of which the shares of a bladder are told: the reference
@@ -136,16 +139,12 @@ class Creep(InMuscle):
         at, muscle = track.state, track.muscle
         pull = np.asarray(self._load(at, track.pull_area, muscle))
         load = np.asarray(pull - self._beside(at, muscle))
-        ahead = load if self.holds is Holding.SETTLED else 0.0
-        late = np.zeros_like(load)
         if np.isnan(memory).all() and load.size:
-            left = self.fresh ** (SPACING ** (1 - np.arange(3.0)))
-            memory[:] = load[0] - left * pull[0]
-        for index, share in enumerate((self.fast, self.medium, self.slow)):
-            if share:
-                time = self.time * SPACING**index
-                state = memory[index : index + 1]
-                late += share * (ahead - lag(load, track.step, time, state))
+            memory[:] = load[0] - self.fresh**WAITS * pull[0]
+        shares = self.fast, self.medium, self.slow
+        times = self.time, self.time * SPACING, self.time * SPACING**2
+        ahead = sum(shares) * load if self.holds is Holding.SETTLED else 0.0
+        late = ahead - followed(load, track.step, times, shares, memory)
         if self.of is Creeping.PRESSURE:
             late *= track.pull_area
         return value - late

@@ -11,7 +11,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.model.memory import begin, stop
+from gripperd.model.compiled import compiled
+from gripperd.model.memory import begin
 from gripperd.model.real import Real, positive_part
 
 Array: TypeAlias = NDArray[np.float64]
@@ -54,7 +55,8 @@ def begin_at(
     """
     if signal.size and np.isnan(memory).all():
         ways = np.array(reaches(radius))
-        came = np.clip(signal[0], -(1 + kept) * ways, (1 + kept) * ways)
+        most = (1 + kept) * ways
+        came = np.minimum(np.maximum(signal[0], -most), most)
         memory[:] = signal[0] - np.maximum(load * came - kept * ways, -ways)
 
 
@@ -116,8 +118,21 @@ def carried(signal: Array, radius: float, forces: Forces, memory: Array) -> Arra
         As :func:`at_rest` gave it or the call before left it; it is moved on, but for
         springs that carry nothing, now or in any other call.
     """
-    total = np.zeros_like(signal)
-    for index, (force, reach) in enumerate(zip(forces, reaches(radius), strict=True)):
-        if force:
-            total += force / reach * stop(signal, reach, memory[index : index + 1])
-    return total
+    ways = np.array(reaches(radius))
+    return compiled(_carried)(signal, ways, np.array(forces) / ways, memory)
+
+
+def _carried(signal: Array, ways: Array, stiffnesses: Array, memory: Array) -> Array:
+    out = np.zeros_like(signal)
+    for place in range(ways.size):
+        if stiffnesses[place] == 0:
+            continue
+        last = memory[place]
+        for index in range(signal.size):
+            goal = signal[index]
+            if np.isnan(last):
+                last = goal
+            last = min(max(last, goal - ways[place]), goal + ways[place])
+            out[index] += stiffnesses[place] * (goal - last)
+        memory[place] = last
+    return out

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf, isfinite
 from typing import TypeVar
 
@@ -62,7 +63,7 @@ VALVE = ("pressure_low", "pressure_high")
 GRIPPER = ("open_width", "ratio", "spring_preload", "spring_rate")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Constant:
     """One number of the model and how far it may be off."""
 
@@ -110,7 +111,7 @@ class Constant:
         low, high = self.limits
         return min(max(self.nominal + shift * self.sigma, low), high)
 
-    @property
+    @cached_property
     def limits(self) -> tuple[float, float]:
         """Between which it could be made at all."""
         if self.effect is not None:

@@ -14,7 +14,7 @@ from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
-from gripperd.effects.creep import Creep, Creeping
+from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.nonlinear_elasticity import NonlinearElasticity
 from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
@@ -264,8 +264,7 @@ def test_what_is_best_already_stays() -> None:
 
 def test_a_step_that_leads_too_far_is_shortened_until_it_helps() -> None:
     problem = problem_of(recording(threshold(25.0)), MODEL, {})
-    sizes = {"fast": -0.02, "medium": -0.02, "slow": -0.02}
-    far: Effect = Creep(**sizes, time=0.7, leverage=1.0, fresh=0.7, of=Creeping.PULL)
+    far: Effect = Creep(-0.02, -0.02, -0.02, time=0.7, leverage=1.0, fresh=0.7)
     found = polished(problem, _start(problem, far))
     count, units = found.point.shifts.size, [one.unit for one in found.coordinates]
 
