@@ -97,6 +97,7 @@ class Creep(InMuscle):
         {Creeping.RUBBER: "rubber_elasticity"}
     )
     travelling: ClassVar[frozenset[str]] = frozenset({Creeping.PRESSURE})
+    unusual: ClassVar[frozenset[str]] = frozenset({Holding.AT_ONCE})
 
     fast: float = amplitude(unit=None, scale=0.02, low=-0.15, high=0.15)
     """Share of the load that is late by the shortest time constant. [-]"""

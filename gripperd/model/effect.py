@@ -96,6 +96,8 @@ class Effect(Protocol):
     """Name of the effect that a word it may choose is about."""
     travelling: ClassVar[frozenset[str]]
     """Words it may choose that mean something of their own only in a travel."""
+    unusual: ClassVar[frozenset[str]]
+    """Words it may choose by which the rest of the model means what it seldom does."""
 
     @property
     def becomes(self) -> str:

@@ -23,6 +23,7 @@ class Memoryless:
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType({})
     travelling: ClassVar[frozenset[str]] = frozenset()
+    unusual: ClassVar[frozenset[str]] = frozenset()
 
     @property
     def becomes(self) -> str:

@@ -47,7 +47,7 @@ def test_it_has_every_key_of_the_contract(creep: Diagnosis) -> None:
     assert effect.keys() >= {
         "name", "stage", "statement", "parameters", "equivalents", "evidence",
     }  # fmt: skip
-    assert effect["chosen"] == {"of": "pull"}
+    assert effect["chosen"] == {"of": "pull", "holds": "settled"}
     assert effect["evidence"].keys() == {"p_value", "delta_bic", "heldout_gain"}
     assert said["where"][0].keys() >= {
         "stage", "signal", "run", "region", "bias", "unit", "p_value",

@@ -27,6 +27,9 @@ TURNED = 0.05
 eight times the noise of common sensors, 0.2 to 0.6 %, and more. [-]"""
 KEPT = "in the model already: its sizes were fitted again, its form is as it was"
 """Why an effect is no candidate whose form may be wrong all the same."""
+UNUSUAL = 5.0
+"""By so much more must an effect explain if with it the rest of the model means what it
+seldom does: constants within their tolerance make up for that. [nat]"""
 WRONG = "parameter:"
 """Start of the name of a candidate that is a wrong constant."""
 
@@ -48,15 +51,26 @@ class Candidate:
 
     @property
     def kind(self) -> tuple[str, ...]:
-        """Its name, and the words it chose, such as the channel that is late."""
+        """Its name, and the words it chose, such as the channel that is late.
+
+        What the rest of the model means beside it makes no other kind.
+        """
         if self.effect is None:
             return (self.name,)
-        return (self.name, *words(self.effect).values())
+        known, unusual = parameters(self.effect), self.effect.unusual
+        chosen = words(self.effect).items()
+        own = (word for name, word in chosen if unusual.isdisjoint(known[name].choices))
+        return (self.name, *own)
 
     @property
     def doubles(self) -> tuple[str, ...]:
         """Names of effects known to look alike."""
         return self.effect.confused_with if self.effect else ()
+
+
+def surprise(effect: Effect) -> float:
+    """By how much more an effect must explain than one like it. [nat]."""
+    return 0.0 if effect.unusual.isdisjoint(words(effect).values()) else UNUSUAL
 
 
 def candidates(

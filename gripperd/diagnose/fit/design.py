@@ -1,13 +1,13 @@
 """All candidates beside each other: whitened, scaled by their priors, as a Gram."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripperd.diagnose.fit.candidates import Candidate, amplitudes, side
+from gripperd.diagnose.fit.candidates import Candidate, amplitudes, side, surprise
 from gripperd.diagnose.fit.gram import Fit, Gram
 from gripperd.diagnose.residuals.constants import NUISANCE
 from gripperd.diagnose.residuals.point import FREED, Point
@@ -72,7 +72,10 @@ class Design:
         columns = self.columns(*chosen)
         start = np.zeros(columns.size)
         start[: self._alone.coefficients.size] = self._alone.coefficients
-        return self.gram.fit(columns, start)
+        fit = self.gram.fit(columns, start)
+        effects = (one.candidate.effect for one in chosen)
+        unusual = sum(surprise(effect) for effect in effects if effect is not None)
+        return replace(fit, evidence=fit.evidence - unusual) if unusual else fit
 
     @cached_property
     def _alone(self) -> Fit:

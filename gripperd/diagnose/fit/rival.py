@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import Candidate, surprise
 from gripperd.diagnose.fit.polish import LEAST_ON, Polished, polished
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -31,7 +31,8 @@ class Rival:
         """Log of its marginal likelihood (Laplace). [nat]."""
         volume = np.linalg.slogdet(self.fit.covariance)[1]
         within = float(-0.5 * self.fit.cost + 0.5 * volume)
-        return within - self.fit.point.surprise
+        unusual = sum(map(surprise, self.fit.point.effects))
+        return within - self.fit.point.surprise - unusual
 
     @property
     def is_misnamed(self) -> bool:

@@ -21,7 +21,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects import EFFECTS
 from gripperd.effects.channel_delay import ChannelDelay
-from gripperd.effects.creep import Creep, Creeping, Holding
+from gripperd.effects.creep import Creep, Creeping
 from gripperd.effects.pressure_friction import PressureFriction
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_offset import ValveOffset, Zero
@@ -221,7 +221,7 @@ def test_channels_that_are_late_are_candidates_of_several_kinds() -> None:
     }
     assert kinds == {("channel_delay", "force"), ("channel_delay", "contraction")}
     creeps = {Candidate("creep", form).kind for form in forms(Creep)}
-    assert creeps == set(product(["creep"], Creeping, Holding))
+    assert creeps == set(product(["creep"], Creeping))
 
 
 def test_rubber_that_creeps_is_no_candidate_without_rubber(blank: Problem) -> None:
