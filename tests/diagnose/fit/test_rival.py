@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import UNUSUAL, Candidate
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival, added, fitted
 from gripperd.diagnose.residuals.constants import Constant
@@ -12,6 +12,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.setup import problem_of
 from gripperd.effects.coulomb_friction import CoulombFriction
+from gripperd.effects.creep import Creep, Holding
 from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
@@ -56,6 +57,18 @@ def test_the_evidence_of_an_amplitude_is_its_marginal_likelihood() -> None:
     # log N(y; 0, C + uu') - log N(y; 0, C), by the matrix determinant lemma.
     gain = 0.5 * moment**2 / (1 + square) - 0.5 * np.log1p(square)
     assert rival.evidence - null.evidence == pytest.approx(gain, rel=0.01)
+
+
+def test_where_the_model_means_what_it_seldom_does_more_must_be_explained(
+    late: Found,
+) -> None:
+    fit = late.null.fit
+    settled, at_once = (
+        Rival((), replace(fit, point=fit.point.with_effect(Creep(holds=holds))))
+        for holds in (Holding.SETTLED, Holding.AT_ONCE)
+    )
+    assert settled.evidence == late.null.evidence
+    assert settled.evidence - at_once.evidence == pytest.approx(UNUSUAL)
 
 
 def test_the_excess_of_a_right_explanation_is_little(late: Found) -> None:
