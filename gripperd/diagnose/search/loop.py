@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-from gripperd.diagnose.fit.candidates import Candidate, side
+from gripperd.diagnose.fit.candidates import Candidate, side, surprise
 from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
@@ -18,11 +18,14 @@ takes work; a loop that gives some is the misfit of a curve, or all there is. On
 others loops explained 0.60 at least, and such misfits 0.22 at most. [-]"""
 FAR = 100.0
 """Mean square of what every explanation leaves, in squares of the noise, from which no
-loop is seen: a curve and a loop at will bend to whatever else is missing. [-]"""
+loop is seen: a curve and a loop at will bend to whatever else is missing. Nor is it
+seen what else the rest of the model may mean. [-]"""
 
 
 def discernible(problem: Problem, listed: Iterable[Candidate]) -> list[Candidate]:
-    """Give those that are no curve with a loop, if misfit is too large to see one.
+    """Give those that are plain to see, if misfit is too large for others.
+
+    Others are a curve with a loop, and what needs the model to mean something unusual.
 
     Parameters
     ----------
@@ -35,7 +38,7 @@ def discernible(problem: Problem, listed: Iterable[Candidate]) -> list[Candidate
         one
         for one in listed
         if one.effect is None
-        or one.effect.forgetful is one.effect
+        or (one.effect.forgetful is one.effect and not surprise(one.effect))
         or problem.inflation({one.effect.signal}) <= FAR
     ]
 
