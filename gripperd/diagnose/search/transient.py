@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from gripperd.diagnose.fit.candidates import Candidate
+from gripperd.diagnose.fit.candidates import Candidate, surprise
 from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.inflation import deflated
@@ -84,8 +84,10 @@ def with_transients(
     The search, with the noise and the stretches that transients are judged by, and its
     outcome; both as they came where no transient tells anything.
     """
+    # Of a level of its own nothing follows for what the rest of the model means.
+    usual = [one for one in listed if not (one.effect and surprise(one.effect))]
     for kind in TRANSIENTS:
-        found, best = _with(kind, found, best, listed, noises)
+        found, best = _with(kind, found, best, usual, noises)
     return found, best
 
 

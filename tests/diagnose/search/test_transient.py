@@ -46,11 +46,9 @@ def _ended(
     return found, contest(found, listed)
 
 
-def _told(
-    found: Found, best: Contest, late: Sequence[Candidate] = LATE
-) -> tuple[Found, Contest]:
+def _told(found: Found, best: Contest) -> tuple[Found, Contest]:
     noises = stepped.problem(missed).noises
-    return with_transients(found, best, (*LEVELS, *late), noises)
+    return with_transients(found, best, (*LEVELS, *LATE), noises)
 
 
 def _drifting(moment: Moment) -> Array:
@@ -211,10 +209,9 @@ def test_a_drift_is_told_if_it_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> No
     found, best = _ended(threshold(60.0), _ageing)
     _, told = _told(found, best)
     assert told.best.names == ("threshold_pressure", "force_sensor_drift")
-    # Were it that of sound sensors, and nothing else could be late.
+    # Were it that of sound sensors.
     monkeypatch.setattr(price, "RAMP", 1.0)
-    drifts = [one for one in LATE if one.name == "force_sensor_drift"]
-    assert _told(found, best, drifts) == (found, best)
+    assert _told(found, best) == (found, best)
 
 
 def test_near_the_noise_the_search_has_heard_it() -> None:
