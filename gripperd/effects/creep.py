@@ -27,7 +27,7 @@ SPACING = 6.0
 """Ratio of neighbouring time constants. Three terms this far apart follow a
 logarithmic law over two decades within 4 % of its rise. [-]"""
 WAITS = SPACING ** (1 - np.arange(3.0))
-"""Times in which a wait passes for each of them, the middle one its own. [-]"""
+"""Power of what the middle one has still to come that each has, after one wait. [-]"""
 
 RUBBER = 5.0
 """Times the force of eq. (5) of which the shares of a bladder are told: the reference
