@@ -27,7 +27,8 @@ SPACING = 6.0
 """Ratio of neighbouring time constants. Three terms this far apart follow a
 logarithmic law over two decades within 4 % of its rise. [-]"""
 WAITS = SPACING ** (1 - np.arange(3.0))
-"""Power of what the middle one has still to come that each has, after one wait. [-]"""
+"""A term has still to come what the middle one has, to this power, if both waited as
+long. [-]"""
 
 RUBBER = 5.0
 """Times the force of eq. (5) of which the shares of a bladder are told: the reference
