@@ -10,7 +10,48 @@ from functools import cached_property
 
 import numpy as np
 
+from gripperd.model.muscle import Muscle
 from gripperd.model.track import Array, Track
+
+_COLUMNS = tuple(one.name for one in fields(Track) if one.type == Array)
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What follows from the contraction alone: told for all runs at once."""
+
+    muscle: Muscle
+    contraction: Array
+
+    @cached_property
+    def diameter_ratio(self) -> Array:
+        """As of a track. [-]."""
+        return np.asarray(self.muscle.diameter_ratio(self.contraction))
+
+    @cached_property
+    def pull_area(self) -> Array:
+        """As of a track. [m²]."""
+        return np.asarray(self.muscle.pull_area(self.contraction))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run(Track):
+    """One of several."""
+
+    piece: slice
+    """Its samples."""
+    shape: Shape
+    """Of all of them."""
+
+    @cached_property
+    def diameter_ratio(self) -> Array:
+        """Diameter of the braid relative to rest. [-]."""
+        return self.shape.diameter_ratio[self.piece]
+
+    @cached_property
+    def pull_area(self) -> Array:
+        """Ideal pull per pressure. [m²]."""
+        return self.shape.pull_area[self.piece]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,17 +67,30 @@ class Runs(Track):
     out of the reading. [N]"""
 
     @cached_property
-    def apart(self) -> tuple[Track, ...]:
+    def shape(self) -> Shape:
+        """Of the muscle, sample by sample."""
+        return Shape(self.muscle, self.contraction)
+
+    @cached_property
+    def diameter_ratio(self) -> Array:
+        """Diameter of the braid relative to rest. [-]."""
+        return self.shape.diameter_ratio
+
+    @cached_property
+    def pull_area(self) -> Array:
+        """Ideal pull per pressure. [m²]."""
+        return self.shape.pull_area
+
+    @cached_property
+    def apart(self) -> tuple[Run, ...]:
         """Each run by itself."""
-        columns = {
-            field.name: value
-            for field in fields(Track)
-            if isinstance(value := getattr(self, field.name), np.ndarray)
-        }
+        columns = {name: getattr(self, name) for name in _COLUMNS}
         return tuple(
-            Track(
+            Run(
                 muscle=self.muscle,
                 span=self.span,
+                piece=piece,
+                shape=self.shape,
                 **{name: column[piece] for name, column in columns.items()},
             )
             for piece in self.slices

@@ -102,6 +102,8 @@ def _happened(explanation: Explanation, signal: Signal, track: Runs) -> Array:
 
 def _pulled(track: Runs, pull: Callable[[Runs], Array], rounds: int) -> Runs:
     """Fill in the pull of runs that no cell tells, with what the muscle makes of it."""
+    if not np.isnan(track.force).any():
+        return track
     untold = track.each(
         lambda force, _: np.full_like(force, np.isnan(force).all()), track.force
     ).astype(bool)

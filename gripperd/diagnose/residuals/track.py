@@ -1,6 +1,8 @@
 """What happened in a sweep, as an explanation has it."""
 
+from collections.abc import Callable, Hashable
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from weakref import WeakKeyDictionary
 
@@ -22,10 +24,10 @@ AWAKE = 5e3
 LEAST_TURNED = 3e3
 """The same, at least. [Pa]"""
 
-_KNOWN: WeakKeyDictionary[Course, dict[AtRest, tuple[tuple[float, ...], Array]]] = (
+_KNOWN: WeakKeyDictionary[Course, dict[Hashable, tuple[Hashable, Array]]] = (
     WeakKeyDictionary()
 )
-"""Directions of sweeps, and what they were told from."""
+"""What was told of sweeps, by what it is, and what it was told from."""
 
 
 def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
@@ -44,22 +46,16 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
     span = (
         (regulator.pressure_low, regulator.pressure_high) if regulator else (0.0, 1.0)
     )
-    command = np.full_like(course.time, np.nan)
     zeros = explanation.zeros
-    if regulator is not None:
-        command = np.clip(regulator.pressure(course.column("current")), *span)
-        if explanation.vents is not None:
-            asleep = np.exp((span[0] - command) / AWAKE)
-            command -= (span[0] - explanation.vents) * asleep
     direction = sliding = directions(explanation, course, *places)
     if explanation.at_rest is AtRest.BLADDER:
         inflating = replace(explanation, at_rest=AtRest.INFLATING)
         sliding = directions(inflating, course, *places)
     rough = Runs(
         muscle=explanation.muscle,
-        time=course.time - course.start,
+        time=_told(course, "time", (), lambda: course.time - course.start),
         step=course.step,
-        command=command,
+        command=_command(explanation, course),
         span=span,
         still=course.still,
         waiting=course.waiting,
@@ -77,7 +73,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         cycle=course.cycle,
         repeat=course.repeat,
         slices=course.slices,
-        beside=np.zeros_like(course.time),
+        beside=_told(course, "beside", (), lambda: np.zeros_like(course.time)),
     )
     sensors = explanation.sensors()
     if not sensors:
@@ -88,7 +84,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         Signal.FORCE: rough.force,
         Signal.GRIP: rough.grip,
     }
-    beside = rest = _of_nearest(course.column("force") - course.level("force"))
+    beside = rest = _told(course, "rest", (), lambda: _of_nearest(course))
     for sensor in reversed(sensors):
         if sensor.signal is Signal.FORCE:
             beside = _rest(sensor, beside, rough)
@@ -123,12 +119,13 @@ def _rest(sensor: SensorEffect, rest: Array, track: Runs) -> Array:
     return np.asarray(rest[np.rint(places).astype(int)])
 
 
-def _of_nearest(rest: Array) -> Array:
-    """Give samples that were not read what the nearest one leaves out; 0 if none was.
+def _of_nearest(course: Course) -> Array:
+    """What a smooth force leaves out, of samples not read that of the nearest. [N].
 
-    A slow channel has such samples between others. Without noise there, a delay that
-    reaches them would seem to explain what it only silences.
+    It is 0 if none was read. A slow channel has such samples between others. Without
+    noise there, a delay that reaches them would seem to explain what it only silences.
     """
+    rest = course.column("force") - course.level("force")
     read = np.flatnonzero(np.isfinite(rest))
     if not read.size:
         return np.zeros_like(rest)
@@ -137,19 +134,61 @@ def _of_nearest(rest: Array) -> Array:
     return nearest
 
 
+def _told(
+    course: Course, what: Hashable, given: Hashable, tell: Callable[[], Array]
+) -> Array:
+    """Give what a sweep tells; not told again while what is given stays the same.
+
+    Most of what happened is as it was for one constant more that moves. Not to be
+    written to.
+    """
+    known = _KNOWN.setdefault(course, {})
+    last = known.get(what)
+    if last is None or last[0] != given:
+        last = given, tell()
+        last[1].flags.writeable = False
+        known[what] = last
+    return last[1]
+
+
+def _command(explanation: Explanation, course: Course) -> Array:
+    """Pressure that a textbook regulator gives for the current. [Pa]."""
+    regulator, vents = explanation.regulator, explanation.vents
+    if regulator is None:
+        return np.full_like(course.time, np.nan)
+    low, high = regulator.pressure_low, regulator.pressure_high
+
+    def tell() -> Array:
+        command = np.clip(regulator.pressure(course.column("current")), low, high)
+        if vents is not None:
+            command -= (low - vents) * np.exp((low - command) / AWAKE)
+        return np.asarray(command)
+
+    return _told(course, "command", (regulator, vents), tell)
+
+
 def _pressure_at(explanation: Explanation, course: Course) -> Array:
     """Pressure at the time of the force sample. [Pa]."""
-    read = course.level("pressure") - explanation.zeros.get(Signal.PRESSURE, 0.0)
+    zero = explanation.zeros.get(Signal.PRESSURE, 0.0)
     skew = explanation.skews.get(Signal.PRESSURE, 0.0)
-    return read - skew * course.rate("pressure") if skew else read
+
+    def tell() -> Array:
+        read = course.level("pressure") - zero
+        return read - skew * course.rate("pressure") if skew else read
+
+    return _told(course, "pressure", (zero, skew), tell)
 
 
 def _contraction(explanation: Explanation, course: Course) -> Array:
     """Contraction that refers to the rest length of the explanation. [-]."""
+    zero = explanation.zeros.get(Signal.CONTRACTION, 0.0)
     skew = explanation.skews.get(Signal.CONTRACTION, 0.0)
-    read = course.level("contraction")
-    read = read - explanation.zeros.get(Signal.CONTRACTION, 0.0)
-    read = read - skew * course.rate("contraction")
+
+    def tell() -> Array:
+        read = course.level("contraction") - zero
+        return read - skew * course.rate("contraction")
+
+    read = _told(course, "contraction", (zero, skew), tell)
     if explanation.told_length is None:
         return read
     if explanation.told_by is not None:
@@ -169,19 +208,11 @@ def _of_opening(explanation: Explanation, course: Course, opening: Array) -> Arr
 
 
 def directions(explanation: Explanation, course: Course, *places: int) -> Array:
-    """Direction of travel; before there was any, the sign of what it is held by.
-
-    Told once for as long as nothing changes that it depends on; not to be written to.
-    """
+    """Direction of travel; before there was any, the sign of what it is held by."""
     signs = tuple(explanation.rests.get(place, 1.0) for place in places)
-    key = explanation.winding, explanation.fading, explanation.stiction, *signs
-    known = _KNOWN.setdefault(course, {})
-    last = known.get(explanation.at_rest)
-    if last is None or last[0] != key:
-        last = key, _directions(explanation, course, *places)
-        last[1].flags.writeable = False
-        known[explanation.at_rest] = last
-    return last[1]
+    given = explanation.winding, explanation.fading, explanation.stiction, *signs
+    tell = partial(_directions, explanation, course, *places)
+    return _told(course, explanation.at_rest, given, tell)
 
 
 def _directions(explanation: Explanation, course: Course, *places: int) -> Array:
@@ -219,11 +250,16 @@ def _halting(pressure: Array, came: Array, share: float) -> Array:
 
 def _came(explanation: Explanation, course: Course, *places: int) -> Array:
     """Sign with which sweeps rest that have no travel; not known of the others."""
-    found = np.full_like(course.time, np.nan)
-    for piece, place in zip(course.slices, places, strict=True):
-        if not course.direction[piece].any():
-            found[piece] = explanation.rests.get(place, np.nan)
-    return found
+    signs = tuple(explanation.rests.get(place) for place in places)
+
+    def tell() -> Array:
+        found = np.full_like(course.time, np.nan)
+        for piece, sign in zip(course.slices, signs, strict=True):
+            if sign is not None and not course.direction[piece].any():
+                found[piece] = sign
+        return found
+
+    return _told(course, "came", signs, tell)
 
 
 def turning(pressure: Array, share: float) -> float:

@@ -81,3 +81,21 @@ def test_a_slope_is_that_of_each_run_by_itself(sweeps: tuple[Course, ...]) -> No
         for run in runs
     ]
     np.testing.assert_allclose(track.slope(value), np.concatenate(expected))
+
+
+def test_each_run_has_the_shape_of_its_own_contraction(
+    sweeps: tuple[Course, ...],
+) -> None:
+    whole = joined(sweeps)
+    together = track_of(SEEN, whole, *range(len(sweeps)))
+    for course, run in zip(sweeps, together.apart, strict=True):
+        contraction = run.contraction
+        assert contraction.size == len(course)
+        # Eqs. (1) to (4) by the angle of the strands.
+        cosine = np.cos(SEEN.muscle.braid_angle) * (1 - contraction)
+        resting = np.sin(SEEN.muscle.braid_angle)
+        ratio = np.sqrt(1 - cosine**2) / resting
+        np.testing.assert_allclose(run.diameter_ratio, ratio, rtol=1e-9)
+        area = np.pi * SEEN.muscle.diameter**2 / 4
+        pull = area * (3 * cosine**2 - 1) / resting**2
+        np.testing.assert_allclose(run.pull_area, pull, rtol=1e-9)

@@ -1,4 +1,4 @@
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from gripperd.diagnose.residuals.track import directions, track_of
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.length_datum import LengthDatum
 from gripperd.model.effect import Signal
-from gripperd.model.track import Array
+from gripperd.model.track import Array, Track
 from tests.diagnose.small import (
     MODEL,
     REGULATOR,
@@ -82,6 +82,43 @@ def test_another_rest_length_is_another_contraction(silent: dict[str, Course]) -
     np.testing.assert_allclose(
         track_of(longer, course, 0).contraction, (0.26 - length) / 0.26
     )
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"regulator": replace(REGULATOR, pressure_high=4e5)}, "command"),
+        ({"regulator": None}, "command"),
+        ({"vents": -2e4}, "command"),
+        ({"zeros": {Signal.PRESSURE: 2e3}}, "pressure"),
+        ({"skews": {Signal.PRESSURE: 0.1}}, "pressure"),
+        ({"zeros": {Signal.CONTRACTION: 0.01}}, "contraction"),
+        ({"skews": {Signal.CONTRACTION: 0.1}}, "contraction"),
+        ({"told_length": 0.3}, "contraction"),
+        ({"zeros": {Signal.FORCE: 2.0}}, "force"),
+        ({"rests": {0: -0.5}}, "direction"),
+        ({"rests": {0: -0.5}}, "came"),
+        ({"stiction": 0.1}, "direction"),
+        ({"at_rest": AtRest.INFLATING}, "direction"),
+        ({"at_rest": AtRest.BLADDER}, "sliding"),
+    ],
+)
+def test_what_was_told_of_another_model_does_not_stay(
+    silent: dict[str, Course], change: dict[str, Any], named: str
+) -> None:
+    course = silent["d"] if named == "contraction" else silent["b"]
+    other = replace(MODEL, **change)
+    before = track_of(MODEL, course, 0)
+    told = track_of(other, course, 0)
+    # Of a course that nothing was told of before.
+    fresh = track_of(other, replace(course), 0)
+    for one in fields(Track):
+        np.testing.assert_array_equal(getattr(told, one.name), getattr(fresh, one.name))
+    assert not np.array_equal(
+        getattr(told, named), getattr(before, named), equal_nan=True
+    )
+    again = track_of(MODEL, course, 0)
+    np.testing.assert_array_equal(getattr(again, named), getattr(before, named))
 
 
 def test_the_sign_of_friction_at_rest_is_assumed_until_there_is_travel() -> None:
