@@ -192,7 +192,7 @@ def _wrong_constants(
 ) -> Iterator[Candidate]:
     travelled = _turned(problem, "contraction", Signal.FORCE)
     for index, constant in enumerate(problem.constants):
-        is_part = constant.path.partition(".")[0] in PARTS
+        is_part = constant.place[0] in PARTS
         unseen = constant.path == "muscle.friction_coefficient" and not travelled
         if is_part and not unseen and SAME.get(constant.path) not in library:
             yield Candidate(WRONG + constant.path, None, index)

@@ -1,5 +1,6 @@
 """Constants of a model that may move within their tolerance, and by how much."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -9,6 +10,7 @@ from typing import TypeVar
 from gripperd.diagnose.residuals.explanation import Explanation, moves
 from gripperd.model.effect import Effect, Signal
 from gripperd.model.parameter import parameters
+from gripperd.model.regulator import Regulator
 from gripperd.model.track import Array
 from gripperd.units import split
 
@@ -90,17 +92,17 @@ class Constant:
         """Signals it changes."""
         if self.effect is not None:
             return moves(self.effect) or frozenset(Signal)
-        return _MOVES.get(self.path) or _MOVES[self.path.partition(".")[0]]
+        return _MOVES.get(self.path) or _MOVES[self.place[0]]
 
     @property
     def reads(self) -> bool:
         """Whether it changes what is thought to have happened, not what follows."""
-        return self.path.partition(".")[0] != "gripper" and self.path not in _LATER
+        return self.place[0] != "gripper" and self.path not in _LATER
 
     @property
     def reach(self) -> float:
         """How far it may be off, in sigma."""
-        if self.path.partition(".")[0] not in PARTS:
+        if self.place[0] not in PARTS:
             return NUISANCE
         # Parts are made to a size; friction and effects are what they happen to be.
         happens = self.effect is not None or self.path.endswith("friction_coefficient")
@@ -110,6 +112,12 @@ class Constant:
         """As it is when off by so many sigma, within what could be made at all."""
         low, high = self.limits
         return min(max(self.nominal + shift * self.sigma, low), high)
+
+    @cached_property
+    def place(self) -> tuple[str, str]:
+        """Part that it is of, and its name there."""
+        owner, _, name = self.path.partition(".")
+        return owner, name
 
     @cached_property
     def limits(self) -> tuple[float, float]:
@@ -122,7 +130,7 @@ class Constant:
     @property
     def course(self) -> int | None:
         """The only sweep it changes, if there is but one."""
-        owner, _, name = self.path.partition(".")
+        owner, name = self.place
         return int(name) if owner == "rest" and self.path != SHARED else None
 
 
@@ -181,14 +189,19 @@ def constants(
     """
     found = [
         constant
-        for owner, names in (("muscle", MUSCLE), ("valve", VALVE), ("gripper", GRIPPER))
-        for constant in _of_part(explanation, owner, names, tolerances)
+        for owner, part, names in (
+            ("muscle", explanation.muscle, MUSCLE),
+            ("valve", explanation.regulator, VALVE),
+            ("gripper", explanation.linkage, GRIPPER),
+        )
+        for constant in _of_part(owner, part, names, tolerances)
     ]
     for effect in explanation.effects:
         found += _of_effect(effect, tolerances)
     found += [
-        Constant(f"zero.{signal.value}", 0.0, _zero(signal) * scale, stated=False)
+        Constant(f"zero.{signal.value}", 0.0, zero * scale, stated=False)
         for signal, scale in full_scale.items()
+        for zero in (CONTRACTION_ZERO if signal is Signal.CONTRACTION else ZERO,)
     ]
     if explanation.regulator is not None and Signal.PRESSURE in full_scale:
         found.append(Constant("response.valve", RESPONSE, RESPONSE, stated=False))
@@ -201,24 +214,19 @@ def constants(
     return tuple(found)
 
 
-def _zero(signal: Signal) -> float:
-    return CONTRACTION_ZERO if signal is Signal.CONTRACTION else ZERO
-
-
 def _of_part(
-    explanation: Explanation,
     owner: str,
+    part: object,
     names: Sequence[str],
     tolerances: Mapping[str, float],
 ) -> Iterator[Constant]:
-    part = _part(explanation, owner)
     for name in names if part is not None else ():
         path = f"{owner}.{name}"
         nominal = float(getattr(part, name))
         usual = PLAIN * abs(nominal)
         if name == "pressure_low":
-            assert explanation.regulator is not None
-            usual = PLAIN / 4 * explanation.regulator.pressure_high
+            assert isinstance(part, Regulator)
+            usual = PLAIN / 4 * part.pressure_high
         sigma = tolerances.get(path, usual)
         if name == "friction_coefficient":
             usual = FRICTION * nominal
@@ -256,10 +264,10 @@ def moved(
     explanation: Explanation, listed: Sequence[Constant], shifts: Sequence[float]
 ) -> Explanation:
     """Give the explanation with each constant off by so many sigma."""
-    values: dict[str, dict[str, float]] = {}
+    values: dict[str, dict[str, float]] = defaultdict(dict)
     for constant, shift in zip(listed, shifts, strict=True):
-        owner, _, name = constant.path.partition(".")
-        values.setdefault(owner, {})[name] = constant.value(shift)
+        owner, name = constant.place
+        values[owner][name] = constant.value(shift)
     return replace(
         explanation,
         muscle=replace(explanation.muscle, **values.get("muscle", {})),
@@ -288,11 +296,3 @@ def _signs(values: Mapping[str, float]) -> dict[int, float]:
 def together(one: Sign, other: float) -> Sign:
     """Add two signs of friction as velocities add up: both are felt from -1 to 1."""
     return (one + other) / (1 + one * other)
-
-
-def _part(explanation: Explanation, owner: str) -> object | None:
-    return {
-        "muscle": explanation.muscle,
-        "valve": explanation.regulator,
-        "gripper": explanation.linkage,
-    }[owner]
