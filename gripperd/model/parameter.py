@@ -3,7 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import Field, dataclass, field, fields
 from enum import StrEnum
+from functools import cache
 from math import inf
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -79,9 +81,16 @@ def choice(among: type[StrEnum]) -> Any:  # noqa: ANN401  (as dataclasses.field)
 
 def parameters(
     effect: "type[DataclassInstance] | DataclassInstance",
-) -> dict[str, Parameter]:
+) -> Mapping[str, Parameter]:
     """Every declared parameter of an effect, by the name of its field."""
-    return {one.name: _known(one) for one in fields(effect) if _KEY in one.metadata}
+    return _declared(effect if isinstance(effect, type) else type(effect))
+
+
+@cache
+def _declared(kind: "type[DataclassInstance]") -> Mapping[str, Parameter]:
+    return MappingProxyType(
+        {one.name: _known(one) for one in fields(kind) if _KEY in one.metadata}
+    )
 
 
 def in_use(
