@@ -264,7 +264,7 @@ class _Builder:
             columns = {
                 place: response[index] * prior
                 for place, (response, prior) in enumerate(self._responses)
-                if response[index].any()
+                if response[index] is not problem.zeros[index] and response[index].any()
             }
             places = np.array(list(columns), dtype=np.intp)
             white = problem.white([*columns.values(), self._targets[index]], index)

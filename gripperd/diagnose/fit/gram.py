@@ -84,8 +84,10 @@ def bounded(
     best = np.clip(np.zeros_like(moments) if start is None else start, low, high)
     free = ~fixed if start is None else (best > low) & (best < high)
     for _ in range(4 * moments.size):
-        rest = moments[free] - matrix[np.ix_(free, ~free)] @ best[~free]
-        best[free] = np.linalg.solve(matrix[np.ix_(free, free)], rest)
+        loose, held = np.flatnonzero(free), np.flatnonzero(~free)
+        rows = loose[:, None]
+        rest = moments[loose] - matrix[rows, held] @ best[held]
+        best[loose] = np.linalg.solve(matrix[rows, loose], rest)
         over = np.where(free, np.maximum(best - high, low - best), 0.0)
         worst = int(np.argmax(over))
         if over[worst] > 1e-9:
