@@ -94,6 +94,15 @@ class Polished:
         return sum(self.counts.values())
 
 
+class _Tried(NamedTuple):
+    """A point, and what it leaves."""
+
+    point: Point
+    base: Base
+    cost: float
+    white: list[Array]
+
+
 def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
     """Fit everything at once, from a point nearby.
 
@@ -107,36 +116,39 @@ def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
         At most; one tells by how much it may be bettered, roughly.
     """
     point = sized(problem, point)
-    coordinates = _coordinates(problem, point)
+    base = Base.of(problem, point)
+    coordinates = _coordinates(problem, point, base)
     low, high = bounds(problem, point, coordinates)
-    cost, white = _cost(problem, point, coordinates)
+    best = _tried(problem, point, coordinates, base)
     covariance = information = np.empty((0, 0))
     damping = promised = 0.0
     for _ in range(rounds):
-        columns = slopes(problem, point, coordinates)
+        columns = slopes(problem, best.point, coordinates, best.base)
         information = columns.T @ columns
         matrix = information + np.eye(columns.shape[1])
         covariance = np.asarray(np.linalg.inv(matrix), np.float64)
-        here = coefficients(point, coordinates)
-        pull = columns.T @ np.concatenate(white) - _priors(here, coordinates)
-        start = cost
+        here = coefficients(best.point, coordinates)
+        pull = columns.T @ np.concatenate(best.white) - _priors(here, coordinates)
+        start = best.cost
         for _ in range(TRIALS):
             damped = matrix + damping * np.diag(np.diag(matrix))
             aim = bounded(damped, pull + damped @ here, low, high, here)
-            there = _moved(problem, point, coordinates, aim)
-            new_cost, new_white = _cost(problem, there, coordinates)
+            moved = _moved(problem, best.point, coordinates, aim)
+            there = _tried(problem, moved, coordinates)
             promised = _promised(matrix, pull, aim - here)
-            kept = cost - new_cost > LEAST_KEPT * promised
+            kept = best.cost - there.cost > LEAST_KEPT * promised
             eased = damping / 10 if damping > DAMPED else 0.0
             damping = eased if kept else max(10 * damping, DAMPED)
-            if new_cost < cost:
-                point, cost, white = there, new_cost, new_white
+            if there.cost < best.cost:
+                best = there
                 break
-        little = max(CONVERGED, RELATIVE * cost)
-        if cost == start or max(start - cost, promised) < little:
+        little = max(CONVERGED, RELATIVE * best.cost)
+        if best.cost == start or max(start - best.cost, promised) < little:
             break
-    misfits, counts = _by_signal(problem, white)
-    return Polished(point, cost, misfits, counts, coordinates, covariance, information)
+    misfits, counts = _by_signal(problem, best.white)
+    return Polished(
+        best.point, best.cost, misfits, counts, coordinates, covariance, information
+    )
 
 
 def _promised(matrix: Array, pull: Array, way: Array) -> float:
@@ -166,11 +178,8 @@ def bounds(
     return np.concatenate([low, lows]), np.concatenate([high, highs])
 
 
-def _coordinates(problem: Problem, point: Point) -> tuple[Coordinate, ...]:
-    if not point.effects:
-        return ()
+def _coordinates(problem: Problem, point: Point, base: Base) -> tuple[Coordinate, ...]:
     found: list[Coordinate] = []
-    base = Base.of(problem, point)
     for effect in point.effects:
         answers = iter(responses(problem, point, effect, base))
         for name, known in in_use(effect, effect.idle).items():
@@ -218,26 +227,27 @@ def _priors(vector: Array, coordinates: Sequence[Coordinate]) -> Array:
     return pull
 
 
-def _cost(
+def _tried(
     problem: Problem,
     point: Point,
     coordinates: Sequence[Coordinate],
-) -> tuple[float, list[Array]]:
-    white = [
-        problem.white([residual], index)[:, 0]
-        for index, residual in enumerate(problem.residuals(point))
-    ]
+    base: Base | None = None,
+) -> _Tried:
+    base = base or Base.of(problem, point)
+    both = zip(problem.measured, base.expected, strict=True)
+    white = [problem.white([y - f], index)[:, 0] for index, (y, f) in enumerate(both)]
     pull = _priors(coefficients(point, coordinates), coordinates)
-    return float(sum(w @ w for w in white) + pull @ pull), white
+    return _Tried(point, base, float(sum(w @ w for w in white) + pull @ pull), white)
 
 
 def slopes(
     problem: Problem,
     point: Point,
     coordinates: Sequence[Coordinate],
+    base: Base | None = None,
 ) -> Array:
     """Whitened change of every prediction for one unit of each parameter, (n, k)."""
-    base = Base.of(problem, point)
+    base = base or Base.of(problem, point)
     columns = sensitivities(problem, point, base)
     here = coefficients(point, coordinates)
     count = point.shifts.size
