@@ -21,7 +21,6 @@ from gripperd.diagnose.noise.whitening import (
     clock_of,
     innovations,
     law_of,
-    log_scale,
 )
 from gripperd.model.track import Array
 
@@ -150,7 +149,7 @@ def _likelihood(noise: Noise, quiet: Quiet) -> float:
     best = np.linalg.lstsq(regressors, residual, rcond=None)[0]
     rest = residual - regressors @ best
     volume = np.linalg.slogdet(products + 1e-12 * np.eye(products.shape[0]))[1]
-    return float(-0.5 * rest @ rest - 0.5 * volume) - log_scale(law)
+    return float(-0.5 * rest @ rest - 0.5 * volume) - law.log_scale
 
 
 def hold(time: Array, residual: Array, *, creeps: bool) -> Quiet:

@@ -56,15 +56,17 @@ def clock_of(time: Array) -> Clock:
 
 
 class Law(NamedTuple):
-    """What :func:`innovations` needs of a noise."""
+    """What the filter of a noise does at each sample."""
 
-    steps: Array
-    """To each sample, in usual ones, shape ``(n,)``. [-]"""
-    ages: Array
-    """The same in memories of the drift. [-]"""
-    sizes: Array
-    """Standard deviation and persistence of what is neither white nor drift, standard
-    deviation of the drift, variance of what is white."""
+    kept: Array
+    """Share that is left since the sample before, of what is neither white nor drift,
+    and of the drift, shape ``(n, 2)``. [-]"""
+    gains: Array
+    """What each of the two learns of an innovation, shape ``(n, 2)``. [-]"""
+    scales: Array
+    """One by the standard deviation of each innovation, shape ``(n,)``."""
+    log_scale: float
+    """Sum of the log standard deviations of the innovations: the volume. [nat]"""
 
 
 def law_of(clock: Clock, noise: Noise, ages: Array | None = None) -> Law:
@@ -85,56 +87,39 @@ def law_of(clock: Clock, noise: Noise, ages: Array | None = None) -> Law:
     slow = max(noise.drift, 1e-6 * noise.std)
     fast = noise.std * (1 - noise.white) ** 0.5
     sizes = fast, noise.persistence, slow, noise.std**2 * noise.white
-    return Law(steps, aged, np.array(sizes))
+    return Law(*compiled(_filter)(steps, aged, np.array(sizes)))
 
 
 def innovations(columns: Array, law: Law) -> Array:
     """Map columns as :func:`whitened` does, by a law that is known already."""
-    return compiled(_innovations)(np.ascontiguousarray(columns), *law)
+    values = np.ascontiguousarray(columns)
+    return compiled(_innovations)(values, law.kept, law.gains, law.scales)
 
 
-def _innovations(columns: Array, steps: Array, ages: Array, sizes: Array) -> Array:
-    fast, persistence, slow, white = sizes
+def _innovations(columns: Array, kept: Array, gains: Array, scales: Array) -> Array:
     n, k = columns.shape
     out = np.empty((n, k))
     a = np.zeros(k)
     d = np.zeros(k)
-    p11, p12, p22 = fast * fast, 0.0, slow * slow
     for i in range(n):
-        if i > 0:
-            skipped = max(1.0, np.round(steps[i]))
-            f = persistence**skipped if persistence > 0 else 0.0
-            g = np.exp(-ages[i])
-            p11 = f * f * p11 + fast * fast * (1 - f * f)
-            p12 = f * g * p12
-            p22 = g * g * p22 + slow * slow * (1 - g * g)
-            for j in range(k):
-                a[j] *= f
-                d[j] *= g
-        variance = p11 + 2 * p12 + p22 + white
-        k1, k2 = (p11 + p12) / variance, (p12 + p22) / variance
-        scale = 1 / np.sqrt(variance)
+        f, g = kept[i]
+        k1, k2 = gains[i]
         for j in range(k):
+            a[j] *= f
+            d[j] *= g
             innovation = columns[i, j] - a[j] - d[j]
-            out[i, j] = innovation * scale
+            out[i, j] = innovation * scales[i]
             a[j] += k1 * innovation
             d[j] += k2 * innovation
-        p11, p12, p22 = (
-            p11 - k1 * (p11 + p12),
-            p12 - k1 * (p12 + p22),
-            p22 - k2 * (p12 + p22),
-        )
     return out
 
 
-def log_scale(law: Law) -> float:
-    """Sum of the log standard deviations of the innovations: the volume. [nat]."""
-    return compiled(_log_scales)(*law)
-
-
-def _log_scales(steps: Array, ages: Array, sizes: Array) -> float:
+def _filter(
+    steps: Array, ages: Array, sizes: Array
+) -> tuple[Array, Array, Array, float]:
     fast, persistence, slow, white = sizes
-    total = 0.0
+    kept, gains = np.ones((steps.size, 2)), np.empty((steps.size, 2))
+    scales, total = np.empty(steps.size), 0.0
     p11, p12, p22 = fast * fast, 0.0, slow * slow
     for i in range(steps.size):
         if i > 0:
@@ -144,12 +129,15 @@ def _log_scales(steps: Array, ages: Array, sizes: Array) -> float:
             p11 = f * f * p11 + fast * fast * (1 - f * f)
             p12 = f * g * p12
             p22 = g * g * p22 + slow * slow * (1 - g * g)
+            kept[i] = f, g
         variance = p11 + 2 * p12 + p22 + white
         k1, k2 = (p11 + p12) / variance, (p12 + p22) / variance
+        gains[i] = k1, k2
+        scales[i] = 1 / np.sqrt(variance)
         total += 0.5 * np.log(variance)
         p11, p12, p22 = (
             p11 - k1 * (p11 + p12),
             p12 - k1 * (p12 + p22),
             p22 - k2 * (p12 + p22),
         )
-    return total
+    return kept, gains, scales, total

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from gripperd.diagnose.noise.model import Noise
-from gripperd.diagnose.noise.whitening import clock_of, law_of, log_scale, whitened
+from gripperd.diagnose.noise.whitening import clock_of, law_of, whitened
 from gripperd.model.track import Array
 from tests.diagnose.small import STEP, covariance
 from tests.diagnose.sweep import noise
@@ -40,7 +40,7 @@ def test_their_sum_of_squares_is_the_chi_square(time: Array, law: Noise) -> None
 @pytest.mark.parametrize("time", TIMES)
 def test_the_volume_is_half_the_log_determinant(time: Array, law: Noise) -> None:
     _, determinant = np.linalg.slogdet(covariance(time, law))
-    volume = log_scale(law_of(clock_of(time), law))
+    volume = law_of(clock_of(time), law).log_scale
     assert volume == pytest.approx(0.5 * determinant, abs=1e-6)
 
 
