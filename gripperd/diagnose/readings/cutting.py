@@ -79,7 +79,7 @@ def courses(
         )
         raise InputError(message, key="run")
     sweeps = as_commanded(sweeps)
-    noises, on_stairs = _noises(recording, sweeps, rest_length)
+    noises, on_stairs = _noises(recording, sweeps, rest_length, processes)
     length = wandering(sweeps, noises.get("contraction", Noise(0.0, 0.0)))
     if "contraction" in noises:
         # Of a way that seldom is the same for long neighbours tell its turns as well.
@@ -87,15 +87,17 @@ def courses(
         known = quieter(length, noises["contraction"])
         noises["contraction"] = replace(known, std=max(known.std, least))
     start = min(float(sweep.columns["time"][0]) for sweep in sweeps)
-    smooth = side_by_side(
-        lambda sweep: levels(sweep, noises, length, on_stairs=on_stairs),
+    travels = side_by_side(
+        lambda sweep: _travel(
+            sweep, levels(sweep, noises, length, on_stairs=on_stairs)
+        ),
         sweeps,
         processes,
     )
     found = [
-        _course(sweep, smoothed, cycle, repeat, start, on_stairs=on_stairs)
-        for sweep, smoothed, cycle, repeat in zip(
-            sweeps, smooth, cycles(sweeps), rows(sweeps), strict=True
+        _course(sweep, travel, cycle, repeat, start, on_stairs=on_stairs)
+        for sweep, travel, cycle, repeat in zip(
+            sweeps, travels, cycles(sweeps), rows(sweeps), strict=True
         )
     ]
     if "contraction" in noises:
@@ -112,7 +114,7 @@ def courses(
 
 
 def _noises(
-    recording: Recording, sweeps: Sequence[Run], rest_length: float
+    recording: Recording, sweeps: Sequence[Run], rest_length: float, processes: int
 ) -> tuple[dict[str, Noise], bool]:
     """Quick noise of each measured column, and whether the pressure goes in stairs."""
     names = {name for sweep in sweeps for name in sweep.columns} - {"time"}
@@ -120,10 +122,12 @@ def _noises(
         name: [sweep.columns[name] for sweep in sweeps if name in sweep.columns]
         for name in names
     }
-    noises = {
-        name: quick_noise(columns, coarse_step(columns), LONG)
-        for name, columns in readings.items()
-    }
+    quick = side_by_side(
+        lambda columns: quick_noise(columns, coarse_step(columns), LONG),
+        tuple(readings.values()),
+        processes,
+    )
+    noises = dict(zip(readings, quick, strict=True))
     regulated = [
         Sweep(sweep.columns["current"], sweep.columns["pressure"])
         for sweep in sweeps
@@ -150,9 +154,23 @@ def _stated(recording: Recording, rest_length: float) -> Mapping[str, float]:
     return stated
 
 
+def _travel(
+    sweep: Run, smoothed: Mapping[str, Smooth]
+) -> tuple[Mapping[str, Smooth], Array]:
+    """Columns without noise, and the direction of travel that they tell. [-]."""
+    time = sweep.columns["time"]
+    known = smoothed.get("contraction")
+    if known is None:
+        return smoothed, np.zeros_like(time)
+    signs = contracting(known, JAWS if sweep.has("opening") else STILL)
+    found = turned(signs, time, sweep.columns["contraction"], known)
+    unsure = np.logical_or(known.unsure, found.unsure)
+    return {**smoothed, "contraction": known._replace(unsure=unsure)}, found.signs
+
+
 def _course(
     sweep: Run,
-    smoothed: Mapping[str, Smooth],
+    travel: tuple[Mapping[str, Smooth], Array],
     cycle: Array,
     repeat: float,
     start: float,
@@ -160,13 +178,7 @@ def _course(
     on_stairs: bool,
 ) -> Course:
     time, still = sweep.columns["time"], stillness(sweep)
-    direction = np.zeros_like(time)
-    if known := smoothed.get("contraction"):
-        signs = contracting(known, JAWS if sweep.has("opening") else STILL)
-        found = turned(signs, time, sweep.columns["contraction"], known)
-        direction = found.signs
-        unsure = np.logical_or(known.unsure, found.unsure)
-        smoothed = {**smoothed, "contraction": known._replace(unsure=unsure)}
+    smoothed, direction = travel
     return Course(
         sweep.name, sweep.kind, time, np.diff(time, prepend=time[0]),
         sweep.columns, smoothed, cycle, np.full(time.size, repeat), 0.0 * time,

@@ -29,6 +29,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.loop import discernible, shows_its_loop
 from gripperd.diagnose.search.preference import BORE, at_edge, preferred
 from gripperd.diagnose.search.price import worth
+from gripperd.diagnose.side_by_side import side_by_side
 
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
@@ -124,7 +125,10 @@ def _pass(
         thrifty = not is_table(problem.courses)
         sets = finalists(problem, around, singles, thrifty=thrifty)
         rivals += _fitted(problem, null.fit.point, sets, known)
-        rivals = [one for one in rivals if shows_its_loop(problem, one)]
+        shown = side_by_side(
+            lambda one: shows_its_loop(problem, one), rivals, problem.processes
+        )
+        rivals = [one for one, loops in zip(rivals, shown, strict=True) if loops]
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
     best = simplest(problem, null, rivals, chance)
