@@ -13,6 +13,25 @@ from gripperd.model.muscle import Muscle
 Array: TypeAlias = NDArray[np.float64]
 
 
+@dataclass(frozen=True)
+class Geometry:
+    """What a muscle is like as it contracts, sample by sample."""
+
+    muscle: Muscle
+    contraction: Array
+    """Shortening relative to rest. [-]"""
+
+    @cached_property
+    def diameter_ratio(self) -> Array:
+        """Diameter of the braid relative to rest. [-]."""
+        return np.asarray(self.muscle.diameter_ratio(self.contraction))
+
+    @cached_property
+    def pull_area(self) -> Array:
+        """Ideal pull per pressure, eq. (4) divided by p. [m²]."""
+        return np.asarray(self.muscle.pull_area(self.contraction))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Track:
     """One run: arrays of one shape ``(n,)`` in SI. What is not known is NaN."""
@@ -56,14 +75,19 @@ class Track:
     """Times that this same sweep was run before in an unbroken row. [-]"""
 
     @cached_property
+    def geometry(self) -> Geometry:
+        """That of the muscle."""
+        return Geometry(self.muscle, self.contraction)
+
+    @cached_property
     def diameter_ratio(self) -> Array:
         """Diameter of the braid relative to rest. [-]."""
-        return np.asarray(self.muscle.diameter_ratio(self.contraction))
+        return self.geometry.diameter_ratio
 
     @cached_property
     def pull_area(self) -> Array:
         """Ideal pull per pressure, eq. (4) divided by p. [m²]."""
-        return np.asarray(self.muscle.pull_area(self.contraction))
+        return self.geometry.pull_area
 
     @cached_property
     def state(self) -> MuscleState:

@@ -10,48 +10,29 @@ from functools import cached_property
 
 import numpy as np
 
-from gripperd.model.muscle import Muscle
-from gripperd.model.track import Array, Track
+from gripperd.model.track import Array, Geometry, Track
 
 _COLUMNS = tuple(one.name for one in fields(Track) if one.type == Array)
 
 
-@dataclass(frozen=True)
-class Shape:
-    """What follows from the contraction alone: told for all runs at once."""
-
-    muscle: Muscle
-    contraction: Array
-
-    @cached_property
-    def diameter_ratio(self) -> Array:
-        """As of a track. [-]."""
-        return np.asarray(self.muscle.diameter_ratio(self.contraction))
-
-    @cached_property
-    def pull_area(self) -> Array:
-        """As of a track. [m²]."""
-        return np.asarray(self.muscle.pull_area(self.contraction))
-
-
 @dataclass(frozen=True, kw_only=True)
 class Run(Track):
-    """One of several."""
+    """One of several; what all have in common is told for all at once."""
 
     piece: slice
     """Its samples."""
-    shape: Shape
-    """Of all of them."""
+    together: Geometry
+    """That of all runs."""
 
     @cached_property
     def diameter_ratio(self) -> Array:
-        """Diameter of the braid relative to rest. [-]."""
-        return self.shape.diameter_ratio[self.piece]
+        """As that of a track. [-]."""
+        return self.together.diameter_ratio[self.piece]
 
     @cached_property
     def pull_area(self) -> Array:
-        """Ideal pull per pressure. [m²]."""
-        return self.shape.pull_area[self.piece]
+        """As that of a track. [m²]."""
+        return self.together.pull_area[self.piece]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,21 +48,6 @@ class Runs(Track):
     out of the reading. [N]"""
 
     @cached_property
-    def shape(self) -> Shape:
-        """Of the muscle, sample by sample."""
-        return Shape(self.muscle, self.contraction)
-
-    @cached_property
-    def diameter_ratio(self) -> Array:
-        """Diameter of the braid relative to rest. [-]."""
-        return self.shape.diameter_ratio
-
-    @cached_property
-    def pull_area(self) -> Array:
-        """Ideal pull per pressure. [m²]."""
-        return self.shape.pull_area
-
-    @cached_property
     def apart(self) -> tuple[Run, ...]:
         """Each run by itself."""
         columns = {name: getattr(self, name) for name in _COLUMNS}
@@ -90,7 +56,7 @@ class Runs(Track):
                 muscle=self.muscle,
                 span=self.span,
                 piece=piece,
-                shape=self.shape,
+                together=self.geometry,
                 **{name: column[piece] for name, column in columns.items()},
             )
             for piece in self.slices
