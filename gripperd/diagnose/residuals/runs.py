@@ -13,6 +13,7 @@ import numpy as np
 from gripperd.model.track import Array, Geometry, Track
 
 _COLUMNS = tuple(one.name for one in fields(Track) if one.type == Array)
+"""Names of what a track has sample by sample."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -73,7 +73,7 @@ def track_of(explanation: Explanation, course: Course, *places: int) -> Runs:
         cycle=course.cycle,
         repeat=course.repeat,
         slices=course.slices,
-        beside=_told(course, "beside", (), lambda: np.zeros_like(course.time)),
+        beside=np.zeros_like(course.time),
     )
     sensors = explanation.sensors()
     if not sensors:
@@ -137,10 +137,9 @@ def _of_nearest(course: Course) -> Array:
 def _told(
     course: Course, what: Hashable, given: Hashable, tell: Callable[[], Array]
 ) -> Array:
-    """Give what a sweep tells; not told again while what is given stays the same.
+    """Give what a sweep tells, not to be written to, anew if what is given differs.
 
-    Most of what happened is as it was for one constant more that moves. Not to be
-    written to.
+    A fit moves one constant after the other, and most of them change little here.
     """
     known = _KNOWN.setdefault(course, {})
     last = known.get(what)

@@ -9,11 +9,12 @@ from gripperd.diagnose.readings.course import Course
 from gripperd.diagnose.readings.cutting import courses
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.runs import Runs
 from gripperd.diagnose.residuals.track import directions, track_of
 from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.length_datum import LengthDatum
 from gripperd.model.effect import Signal
-from gripperd.model.track import Array, Track
+from gripperd.model.track import Array
 from tests.diagnose.small import (
     MODEL,
     REGULATOR,
@@ -112,13 +113,22 @@ def test_what_was_told_of_another_model_does_not_stay(
     told = track_of(other, course, 0)
     # Of a course that nothing was told of before.
     fresh = track_of(other, replace(course), 0)
-    for one in fields(Track):
-        np.testing.assert_array_equal(getattr(told, one.name), getattr(fresh, one.name))
+    for one in fields(Runs):
+        np.testing.assert_equal(getattr(told, one.name), getattr(fresh, one.name))
     assert not np.array_equal(
         getattr(told, named), getattr(before, named), equal_nan=True
     )
     again = track_of(MODEL, course, 0)
     np.testing.assert_array_equal(getattr(again, named), getattr(before, named))
+
+
+@pytest.mark.parametrize("named", ["time", "command", "pressure", "contraction"])
+def test_what_is_told_once_is_not_written_to(
+    silent: dict[str, Course], named: str
+) -> None:
+    column = getattr(track_of(MODEL, silent["b"], 0), named)
+    with pytest.raises(ValueError, match="read-only"):
+        column[0] = 0.0
 
 
 def test_the_sign_of_friction_at_rest_is_assumed_until_there_is_travel() -> None:
