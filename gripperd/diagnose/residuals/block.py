@@ -23,7 +23,7 @@ class Block(NamedTuple):
 
 
 class Group(NamedTuple):
-    """Sweeps that explain the same signals, end to end."""
+    """All sweeps that explain some signals, end to end."""
 
     places: tuple[int, ...]
     """Of each sweep in the recording."""

@@ -177,17 +177,16 @@ class Problem:
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
-        """Sweeps that explain the same signals, to be predicted at once."""
-        shown: dict[int, tuple[Signal, ...]] = {}
+        """Sweeps that explain some signals, to be predicted at once."""
+        shown: dict[Signal, dict[int, None]] = {}
         for block in self.blocks:
-            known = (*shown.get(block.course, ()), block.signal)
-            shown[block.course] = tuple(dict.fromkeys(known))
-        places: dict[tuple[Signal, ...], list[int]] = {}
-        for place, signals in shown.items():
-            places.setdefault(signals, []).append(place)
+            shown.setdefault(block.signal, {})[block.course] = None
+        signals: dict[tuple[int, ...], list[Signal]] = {}
+        for signal, places in shown.items():
+            signals.setdefault(tuple(places), []).append(signal)
         return tuple(
-            Group(tuple(own), signals, joined([self.courses[place] for place in own]))
-            for signals, own in places.items()
+            Group(places, tuple(own), joined([self.courses[place] for place in places]))
+            for places, own in signals.items()
         )
 
     @cached_property
