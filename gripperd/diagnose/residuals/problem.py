@@ -114,17 +114,15 @@ class Problem:
     def ends(self, point: Point) -> tuple[Array, Array]:
         """Between which each constant may be off, in widths of its prior.
 
-        Past the bound of a size of an effect nothing changes, and no slope leads back.
+        Past what could be made at all nothing changes, and no slope leads back.
         """
         reach = self.reach(point)
         low, high = -reach, reach.copy()
         for place, one in enumerate(self.constants):
-            if one.effect is not None:
-                width = one.sigma * float(point.widths[place])
-                least, most = ((end - one.nominal) / width for end in one.limits)
-                low[place], high[place] = (
-                    max(low[place], least), min(high[place], most),
-                )  # fmt: skip
+            width = one.sigma * float(point.widths[place])
+            least, most = ((end - one.nominal) / width for end in one.limits)
+            low[place] = max(low[place], min(least, 0.0))
+            high[place] = min(high[place], max(most, 0.0))
         return low, high
 
     def explanation(self, point: Point) -> Explanation:

@@ -21,7 +21,7 @@ from gripperd.effects.presliding_hysteresis import PreslidingHysteresis
 from gripperd.effects.series_compliance import SeriesCompliance
 from gripperd.effects.threshold_pressure import ThresholdPressure
 from gripperd.effects.valve_lag import ValveLag
-from gripperd.model.effect import Effect
+from gripperd.model.effect import Effect, Signal
 from gripperd.model.preisach import Hysteron
 from gripperd.model.track import Array
 from tests.diagnose.small import (
@@ -87,6 +87,25 @@ def test_the_sign_of_friction_at_rest_is_no_larger_than_one() -> None:
     found = polished(problem, _start(problem))
     signs = problem.explanation(found.point).rests
     assert max(abs(sign) for sign in signs.values()) <= 1.0 + 1e-9
+
+
+def test_a_regulator_that_follows_at_once_has_no_response_time_left() -> None:
+    # Below none nothing changes any more, and no slope would lead back: here pressures
+    # are even ahead, as where clocks differ.
+    plain = _problem()
+    problem = replace(plain)
+    problem.__dict__["measured"] = [
+        value + 5e-3 * np.gradient(value) / STEP
+        if block.signal is Signal.PRESSURE
+        else value
+        for block, value in zip(plain.blocks, plain.measured, strict=True)
+    ]
+    found = polished(problem, _start(problem))
+    index = [one.path for one in problem.constants].index("response.valve")
+    constant = problem.constants[index]
+    at_once = -constant.nominal / constant.sigma
+    assert found.point.shifts[index] == pytest.approx(at_once, abs=1e-6)
+    assert found.information[index, index] > 1.0
 
 
 def test_a_freed_constant_goes_where_it_has_to() -> None:
