@@ -2,9 +2,7 @@
 
 References
 ----------
-.. [1] D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear
-       parameters", J. SIAM 11(2), 431-441, 1963.
-.. [2] J. Nocedal, S. J. Wright, "Numerical Optimization", 2nd ed., Springer, 2006,
+.. [1] J. Nocedal, S. J. Wright, "Numerical Optimization", 2nd ed., Springer, 2006,
        algorithm 4.1: a step that keeps less than a quarter leads too far.
 """
 
@@ -15,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gripperd.diagnose.fit.design import limits, problem_prior
-from gripperd.diagnose.fit.gram import bounded
+from gripperd.diagnose.fit.quadratic import Quadratic
 from gripperd.diagnose.fit.sizes import sized
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -31,16 +29,20 @@ TRIALS = 7
 DAMPED = 0.001
 """First damping after a step that did not help, of the diagonal: ten times as much
 leaves nothing of the way along a narrow valley. [-]"""
-RELATIVE = 2e-5
+RELATIVE = 5e-5
 """Fall of the cost, of itself, below which another round is not worth it. [-]"""
 CONVERGED = 0.3
 """Fall of the cost, promised and kept, below which another round is not worth it."""
 LEAST_KEPT = 0.25
-"""Share of a promised fall of the cost below which a step led too far [2]_. [-]"""
+"""Share of a promised fall of the cost below which a step led too far [1]_. [-]"""
 LEAST_ON = 0.01
 """Least of a shape whose 0 is another law, of its largest. [-]"""
+SIZE_STEPS = (0.1, 0.02)
+"""Longest and least step of a difference quotient, of an amplitude, in widths of its
+prior; half as long each round. A dead band goes by jumps, which a long step leads past;
+a delay bends at every sample, and needs the slope before the next. [-]"""
 SHAPE_STEP = 0.04
-"""Step of a difference quotient, of a shape; of one that is 0, a fifth of that, of
+"""The same of a shape, in its own size; of one that is 0, a fifth of that, of
 its upper bound. [-]"""
 
 
@@ -120,40 +122,35 @@ def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
     coordinates = _coordinates(problem, point, base)
     low, high = bounds(problem, point, coordinates)
     best = _tried(problem, point, coordinates, base)
-    covariance = information = np.empty((0, 0))
+    information = np.empty((0, 0))
     damping = promised = 0.0
-    for _ in range(rounds):
-        columns = slopes(problem, best.point, coordinates, best.base)
+    for turn in range(rounds):
+        columns = slopes(problem, best.point, coordinates, best.base, _nearer(turn))
         information = columns.T @ columns
-        matrix = information + np.eye(columns.shape[1])
-        covariance = np.asarray(np.linalg.inv(matrix), np.float64)
         here = coefficients(best.point, coordinates)
         pull = columns.T @ np.concatenate(best.white) - _priors(here, coordinates)
+        model = Quadratic(here, information + np.eye(here.size), pull)
         start = best.cost
+        little = max(CONVERGED, RELATIVE * start)
         for _ in range(TRIALS):
-            damped = matrix + damping * np.diag(np.diag(matrix))
-            aim = bounded(damped, pull + damped @ here, low, high, here)
+            aim = model.lowest(damping, low, high)
             moved = _moved(problem, best.point, coordinates, aim)
             there = _tried(problem, moved, coordinates)
-            promised = _promised(matrix, pull, aim - here)
-            kept = best.cost - there.cost > LEAST_KEPT * promised
+            promised = model.fall(aim)
+            kept = start - there.cost > LEAST_KEPT * promised
             eased = damping / 10 if damping > DAMPED else 0.0
             damping = eased if kept else max(10 * damping, DAMPED)
-            if there.cost < best.cost:
-                best = there
+            if there.cost < start or promised < little:
+                best = min(best, there, key=lambda one: one.cost)
                 break
-        little = max(CONVERGED, RELATIVE * best.cost)
-        if best.cost == start or max(start - best.cost, promised) < little:
+        fell = start - best.cost
+        if fell == 0 or max(fell, promised) < little:
             break
     misfits, counts = _by_signal(problem, best.white)
+    held = np.asarray(np.linalg.inv(information + np.eye(len(information))), np.float64)
     return Polished(
-        best.point, best.cost, misfits, counts, coordinates, covariance, information
+        best.point, best.cost, misfits, counts, coordinates, held, information
     )
-
-
-def _promised(matrix: Array, pull: Array, way: Array) -> float:
-    """Fall of the cost along a way, were all linear. [-]."""
-    return float(2 * pull @ way - way @ matrix @ way)
 
 
 def _by_signal(
@@ -245,6 +242,7 @@ def slopes(
     point: Point,
     coordinates: Sequence[Coordinate],
     base: Base | None = None,
+    size_step: float = SIZE_STEPS[0],
 ) -> Array:
     """Whitened change of every prediction for one unit of each parameter, (n, k)."""
     base = base or Base.of(problem, point)
@@ -252,7 +250,7 @@ def slopes(
     here = coefficients(point, coordinates)
     count = point.shifts.size
     for index, coordinate in enumerate(coordinates):
-        step = _step(coordinate, here[count + index])
+        step = _step(coordinate, here[count + index], size_step)
         vector = here.copy()
         vector[count + index] += step
         moved = _moved(problem, point, coordinates, vector)
@@ -266,10 +264,16 @@ def slopes(
     )
 
 
-def _step(coordinate: Coordinate, here: float) -> float:
+def _nearer(turn: int) -> float:
+    """Step for sizes in one of the rounds, counted from 0. [-]."""
+    longest, least = SIZE_STEPS
+    return max(longest * 0.5**turn, least)
+
+
+def _step(coordinate: Coordinate, here: float, size_step: float) -> float:
     """Of a difference quotient, in units; both its ends lie within the limits."""
     room = (coordinate.high - coordinate.low) / coordinate.unit
-    step = min(0.1 if coordinate.is_amplitude else 2 * SHAPE_STEP, room / 2)
+    step = min(size_step if coordinate.is_amplitude else 2 * SHAPE_STEP, room / 2)
     return -step if (here + step) * coordinate.unit > coordinate.high else step
 
 

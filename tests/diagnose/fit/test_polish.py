@@ -1,18 +1,32 @@
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import fields, replace
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.optimize import Bounds, minimize
 from scipy.signal import lfilter
 
-from gripperd.diagnose.fit.polish import Coordinate, Polished, bounds, polished, slopes
+from gripperd.diagnose.fit.polish import (
+    SIZE_STEPS,
+    Coordinate,
+    Polished,
+    bounds,
+    polished,
+    slopes,
+)
 from gripperd.diagnose.readings.recording import Recording
 from gripperd.diagnose.residuals.constants import MADE, NUISANCE
 from gripperd.diagnose.residuals.explanation import Explanation
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
+from gripperd.diagnose.residuals.response import Base
+from gripperd.diagnose.residuals.runs import Runs
+from gripperd.diagnose.residuals.stages import predicted
+from gripperd.diagnose.residuals.track import track_of
 from gripperd.diagnose.setup import problem_of
+from gripperd.effects.channel_delay import ChannelDelay
 from gripperd.effects.coulomb_friction import CoulombFriction
 from gripperd.effects.creep import Creep
 from gripperd.effects.force_sensor_bias import ForceSensorBias
@@ -260,6 +274,49 @@ def test_what_is_proportional_changes_alike_near_a_limit_and_far_from_it(
         assert column == pytest.approx(columns[0], abs=1e-6 * np.ptp(columns[0]))
 
 
+@pytest.mark.parametrize("unit", [STEP, 10 * STEP])
+def test_a_delay_changes_as_the_line_to_the_sample_before_has_it(unit: float) -> None:
+    # A step past the next sample is the slope of no place that is near.
+    problem = _problem()
+    late = ChannelDelay(delay=0.3 * STEP, channel=Signal.FORCE)
+    one = Coordinate(late.name, "delay", unit, 0.0, 100 * STEP, is_amplitude=True)
+    column = slopes(problem, _start(problem, late), [one], None, SIZE_STEPS[1])[:, -1]
+    on_time = problem.explanation(_start(problem))
+    expected = []
+    for index, block in enumerate(problem.blocks):
+        course = problem.courses[block.course]
+        track = track_of(on_time, course, block.course)
+        (force,) = predicted(on_time, course, [Signal.FORCE], track).values()
+        falls = -np.diff(force, prepend=force[0]) / STEP * unit
+        change = falls if block.signal is Signal.FORCE else 0.0 * falls
+        expected.append(problem.white([change[block.good]], index)[:, 0])
+    assert np.ptp(column) > 1.0
+    assert column == pytest.approx(np.concatenate(expected), rel=1e-6, abs=1e-6)
+
+
+def test_every_round_looks_nearer(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[float] = []
+
+    def watched(
+        problem: Problem,
+        point: Point,
+        coordinates: Sequence[Coordinate],
+        base: Base,
+        step: float,
+    ) -> Array:
+        seen.append(step)
+        return slopes(problem, point, coordinates, base, step)
+
+    problem = problem_of(recording(threshold(25.0)), MODEL, {})
+    monkeypatch.setattr("gripperd.diagnose.fit.polish.slopes", watched)
+    far: Effect = Creep(-0.02, -0.02, -0.02, time=0.7, leverage=1.0, fresh=0.7)
+    polished(problem, _start(problem, far))
+    longest, least = SIZE_STEPS
+    assert len(seen) > 2
+    assert seen[0] == longest
+    assert all(max(a / 2, least) == b for a, b in pairwise(seen))
+
+
 def _lagging(time: float) -> Recording:
     """Pressures behind a lag, whose commands are held between samples."""
     kept = np.exp(-STEP / time)
@@ -279,6 +336,25 @@ def test_what_is_best_already_stays() -> None:
     again = polished(problem, once.point)
     assert again.cost <= once.cost
     assert again.cost == pytest.approx(once.cost, abs=0.5)
+
+
+def test_what_promises_nothing_is_not_tried_again() -> None:
+    problem = _problem()
+    best = polished(problem, _start(problem))
+    while (again := polished(problem, best.point)).cost < best.cost:
+        best = again
+    seen: list[Explanation] = []
+
+    class Watched(Problem):
+        """A problem that knows where it was looked at."""
+
+        def tracks(self, explanation: Explanation) -> tuple[Runs, ...]:
+            seen.append(explanation)
+            return super().tracks(explanation)
+
+    given = {one.name: getattr(problem, one.name) for one in fields(problem)}
+    polished(Watched(**given), best.point)
+    assert len(seen) == len(("where it starts", "the step that promises nothing"))
 
 
 def test_a_step_that_leads_too_far_is_shortened_until_it_helps() -> None:
