@@ -8,6 +8,7 @@ References
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -105,7 +106,9 @@ class _Tried(NamedTuple):
     white: list[Array]
 
 
-def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
+def polished(
+    problem: Problem, point: Point, rounds: int = ROUNDS, enough: float = -inf
+) -> Polished:
     """Fit everything at once, from a point nearby.
 
     Parameters
@@ -116,6 +119,8 @@ def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
         Where to start; its effects stay, their numbers move.
     rounds
         At most; one tells by how much it may be bettered, roughly.
+    enough
+        Cost below which it is not asked how much lower it may be. [-]
     """
     point = sized(problem, point)
     base = Base.of(problem, point)
@@ -144,7 +149,7 @@ def polished(problem: Problem, point: Point, rounds: int = ROUNDS) -> Polished:
                 best = min(best, there, key=lambda one: one.cost)
                 break
         fell = start - best.cost
-        if fell == 0 or max(fell, promised) < little:
+        if fell == 0 or max(fell, promised) < little or best.cost < enough:
             break
     misfits, counts = _by_signal(problem, best.white)
     held = np.asarray(np.linalg.inv(information + np.eye(len(information))), np.float64)

@@ -1,6 +1,6 @@
 """Whether the readings bear out the memory of what is named for it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from gripperd.diagnose.fit.candidates import Candidate, side, surprise
@@ -8,6 +8,7 @@ from gripperd.diagnose.fit.polish import polished
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.curve import beyond_curves
+from gripperd.diagnose.side_by_side import side_by_side
 from gripperd.model.effect import Effect, Signal
 
 SEEN = 13.0
@@ -43,6 +44,13 @@ def discernible(problem: Problem, listed: Iterable[Candidate]) -> list[Candidate
     ]
 
 
+def show_their_loops(problem: Problem, rivals: Sequence[Rival]) -> list[bool]:
+    """Tell of each of some explanations what :func:`shows_its_loop` does."""
+    return side_by_side(
+        lambda one: shows_its_loop(problem, one), rivals, problem.processes
+    )
+
+
 def shows_its_loop(problem: Problem, rival: Rival) -> bool:
     """Tell whether each of its effects needs the memory that it is named for.
 
@@ -66,12 +74,14 @@ def shows_its_loop(problem: Problem, rival: Rival) -> bool:
         # The constants may make up for a loop that is in nothing but the fit.
         given = replace(problem, model=problem.model.with_effect(bare))
         others = point.without(effect.name)
-        loop = polished(given, others).cost - rival.fit.cost
+        cost = rival.fit.cost
+        loop = polished(given, others, enough=cost + 2 * SEEN).cost - cost
         if loop < 2 * SEEN:
             return False
         if side(effect) > 0:
             continue
-        if loop < OWN * (polished(problem, others).cost - rival.fit.cost):
+        alone = polished(problem, others, enough=cost + loop / OWN).cost - cost
+        if loop < OWN * alone:
             return False
     return True
 

@@ -15,7 +15,7 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import LEAST
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.limit import has_become
-from gripperd.diagnose.search.loop import discernible, is_but_curve, shows_its_loop
+from gripperd.diagnose.search.loop import discernible, is_but_curve, show_their_loops
 from gripperd.diagnose.search.needed import needed, without_each
 from gripperd.diagnose.search.preference import preferred, strained
 from gripperd.diagnose.search.price import acts_on, worth
@@ -206,11 +206,9 @@ def _challenged(
         _challengers(problem, bare, index, others) for index, bare in enumerate(without)
     ]
     # All at once, for places may have few.
-    rivals = iter(fitted(problem, [start for own in starts for start in own]))
-    return [
-        [one for one in islice(rivals, len(own)) if shows_its_loop(problem, one)]
-        for own in starts
-    ]
+    rivals = fitted(problem, [start for own in starts for start in own])
+    told = zip(rivals, show_their_loops(problem, rivals), strict=True)
+    return [[one for one, loops in islice(told, len(own)) if loops] for own in starts]
 
 
 def _margin(closed: float, excess: float, samples: int) -> float:

@@ -26,10 +26,9 @@ from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.belief import LEAST_BESIDE, MOST, least, simplest
 from gripperd.diagnose.search.finalists import finalists, heard, leaders
 from gripperd.diagnose.search.found import Found
-from gripperd.diagnose.search.loop import discernible, shows_its_loop
+from gripperd.diagnose.search.loop import discernible, show_their_loops
 from gripperd.diagnose.search.preference import BORE, at_edge, preferred
 from gripperd.diagnose.search.price import worth
-from gripperd.diagnose.side_by_side import side_by_side
 
 FALSE_ALARMS = 0.01
 """Share of recordings without a discrepancy in which something may be found."""
@@ -125,9 +124,7 @@ def _pass(
         thrifty = not is_table(problem.courses)
         sets = finalists(problem, around, singles, thrifty=thrifty)
         rivals += _fitted(problem, null.fit.point, sets, known)
-        shown = side_by_side(
-            lambda one: shows_its_loop(problem, one), rivals, problem.processes
-        )
+        shown = show_their_loops(problem, rivals)
         rivals = [one for one, loops in zip(rivals, shown, strict=True) if loops]
         alone = [one for one in rivals if len(one.candidates) == 1] or [null]
         rivals += _with_bore(problem, preferred(problem, alone), listed)
@@ -213,4 +210,5 @@ def additions(
         if singles[member] > found.threshold
     ]
     grown = larger(problem, rival, more) + _with_bore(problem, rival, listed)
-    return [one for one in grown if shows_its_loop(problem, one)]
+    shown = show_their_loops(problem, grown)
+    return [one for one, loops in zip(grown, shown, strict=True) if loops]

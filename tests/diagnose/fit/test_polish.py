@@ -338,6 +338,15 @@ def test_what_is_best_already_stays() -> None:
     assert again.cost == pytest.approx(once.cost, abs=0.5)
 
 
+def test_what_is_good_enough_is_not_made_the_best() -> None:
+    problem = problem_of(recording(rubbing(20.0)), MODEL, {})
+    start = _start(problem, CoulombFriction(magnitude=5.0))
+    best, first = polished(problem, start).cost, polished(problem, start, rounds=1).cost
+    assert best < first - 1.0
+    assert polished(problem, start, enough=best + 2 * (first - best)).cost == first
+    assert polished(problem, start, enough=best - 1.0).cost == best
+
+
 def test_what_promises_nothing_is_not_tried_again() -> None:
     problem = _problem()
     best = polished(problem, _start(problem))
