@@ -15,7 +15,7 @@ from gripperd.model.track import Array
 
 
 class Quadratic(NamedTuple):
-    """A cost that falls to the lowest place and rises behind it."""
+    """A cost by its slope and its curvature at a point. [-]."""
 
     here: Array
     """Numbers of the point, shape ``(k,)``."""
