@@ -19,6 +19,7 @@ from gripperd.diagnose.readings.legs import borne_out, legs_of
 from gripperd.diagnose.readings.length import as_unsure, at_its_mean
 from gripperd.diagnose.readings.recording import Run
 from gripperd.diagnose.readings.rest import at_rest
+from gripperd.diagnose.readings.spring import on_spring
 from gripperd.diagnose.readings.travel import (
     JAWS,
     SURE,
@@ -76,25 +77,19 @@ def levels(
         for name in SMOOTHED
         if sweep.has(name)
     }
+    if "pressure" in found:
+        plain = found["pressure"]
+        found["pressure"] = _regulated(sweep, plain, noises, on_stairs=on_stairs)
     if "contraction" in found:
         found["length"] = _length(sweep, noises, length)
-        bent = bending(sweep, "contraction", found["contraction"])
-        held = _not_past(sweep, bent)
-        unswung = as_unsure(_unswung(sweep, held), length)
-        found["contraction"] = _steady(sweep, unswung)
+        way = _unswung(sweep, _not_past(sweep, found["contraction"]))
+        if "pressure" in found:
+            way = on_spring(sweep, way, found["pressure"])
+        found["contraction"] = _steady(sweep, as_unsure(way, length))
         if not found["contraction"].rate.any():
             found["length"] = at_its_mean(found["contraction"])
-    if "pressure" in found and sweep.has("current"):
-        found["pressure"] = _beside_command(
-            sweep, found["pressure"], noises, on_stairs=on_stairs
-        )
-    elif "pressure" in found:
-        leapt = leaping(sweep, "pressure", found["pressure"])
-        found["pressure"] = breaking(
-            sweep, "pressure", bending(sweep, "pressure", leapt)
-        )
-        if "contraction" in found and not found["contraction"].rate.any():
-            found["pressure"] = _unturned(found["pressure"])
+            if "pressure" in found and not sweep.has("current"):
+                found["pressure"] = _unturned(found["pressure"])
     if {"pressure", "contraction", "force"} <= found.keys():
         found["force"] = _beside_pressure(sweep, found, noises)
     return found
@@ -209,12 +204,12 @@ def breaking(sweep: Run, name: str, plain: Smooth) -> Smooth:
     return broken._replace(spread=max(broken.spread, plain.spread))
 
 
-def _not_past(sweep: Run, bent: Smooth) -> Smooth:
+def _not_past(sweep: Run, plain: Smooth) -> Smooth:
     """Contraction that goes straight on from corner to corner, if it goes less far so.
 
-    A trend goes past the end of a way that is held, and comes back: friction would
-    seem to have turned round.
+    A trend goes past the end of a way that is held: friction would seem to turn round.
     """
+    bent = bending(sweep, "contraction", plain)
     broken = breaking(sweep, "contraction", bent)
     return broken if np.ptp(bent.value) > np.ptp(broken.value) else bent
 
@@ -233,6 +228,16 @@ def _unswung(sweep: Run, plain: Smooth) -> Smooth:
         if back > least:
             return plain
     return known
+
+
+def _regulated(
+    sweep: Run, plain: Smooth, noises: Mapping[str, Noise], *, on_stairs: bool
+) -> Smooth:
+    """Pressure with the corners of its command; if none was read, with its own."""
+    if sweep.has("current"):
+        return _beside_command(sweep, plain, noises, on_stairs=on_stairs)
+    bent = bending(sweep, "pressure", leaping(sweep, "pressure", plain))
+    return breaking(sweep, "pressure", bent)
 
 
 def _beside_command(
