@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripperd.diagnose.readings.course import Course
+from gripperd.diagnose.readings.cycle import VENTED
 from gripperd.diagnose.readings.fault import Mask
 from gripperd.diagnose.readings.grasp import PRESSED
 from gripperd.diagnose.residuals.problem import Problem
@@ -78,17 +79,19 @@ def _tail(course: Course) -> Mask:
 def _spared(problem: Problem) -> set[int]:
     """Sweeps whose inputs lie inside the range of the rest, spread over the order.
 
-    The first of a recording stays: only it can show a first inflation. So does the last
-    that shows a signal, the only one in which the muscle is fast, or its pressure: what
-    speed does shows in it alone, the only one in which jaws travel, and each of two in
-    which they press: one alone does not tell friction from a spring.
+    The first inflation of a recording stays, and what was before it: only it can show
+    what a first one differs in. So does the last that shows a signal, the only one in
+    which the muscle is fast, or its pressure: what speed does shows in it alone, the
+    only one in which jaws travel, and each of two in which they press: one alone does
+    not tell friction from a spring.
     """
     courses, shown = problem.courses, _shown(problem)
     jaws = [index for index in shown if _opens(courses[index])]
     grasps = [index for index in shown if _gripped(courses[index])]
     few = 0 < len(grasps) < FEW_JAWS
     kept = _fastest(courses, "pressure") | set(grasps if few else [])
-    after = [index for index in shown if index > 0]
+    first = _first_inflated(courses)
+    after = [index for index in shown if index > first]
     later = [index for index in after if index not in kept] or after
     columns, inner = _inner(courses, later)
     # One grasp at most: the constants of the jaws are known from the others alone. Of
@@ -157,6 +160,13 @@ def _shown(problem: Problem) -> dict[int, set[Signal]]:
     for block in problem.blocks:
         shown.setdefault(block.course, set()).add(block.signal)
     return dict(sorted(shown.items()))
+
+
+def _first_inflated(courses: Sequence[Course]) -> int:
+    """Place of the first sweep with air in the muscle; 0 where no pressure tells."""
+    least = VENTED * _highest(courses, "pressure")
+    tops = (np.nanmax(one.level("pressure"), initial=0.0) for one in courses)
+    return next((place for place, top in enumerate(tops) if top > least), 0)
 
 
 def _spread(places: Sequence[int], count: int) -> list[int]:

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import permutations
 
 import numpy as np
 import pytest
@@ -92,6 +93,17 @@ def test_the_first_sweep_stays_for_only_it_shows_a_first_inflation(
     for shift in range(8):
         courses = (*blank.courses[shift:], *blank.courses[:shift])
         assert courses[0].run not in split(replace(blank, courses=courses)).runs
+
+
+def test_the_first_inflation_stays_where_the_muscle_was_vented_before(
+    blank: Problem,
+) -> None:
+    vented, *inflated = blank.courses
+    assert vented.run == "vented"
+    for chosen in permutations(inflated, 4):
+        found = split(replace(blank, courses=(vented, *chosen))).runs
+        assert found
+        assert chosen[0].run not in found
 
 
 def test_a_sweep_that_goes_further_than_all_others_stays(blank: Problem) -> None:
