@@ -19,7 +19,7 @@ from gripperd.diagnose.readings.course import is_table
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import SEEN, acts_on, size_of
-from gripperd.diagnose.search.rivalry import Contest
+from gripperd.diagnose.search.rivalry import SURE, Contest
 from gripperd.diagnose.verdict.ageing import Ageing
 from gripperd.model.effect import ROOM, Effect, Signal
 from gripperd.model.kinds import InMuscle, InSensor, InValve
@@ -172,8 +172,9 @@ Artefact: TypeAlias = Jump | WarmCell | Snap | SetPoint | Ageing
 def artefact(found: Found, best: Contest) -> Artefact | None:
     """Give the artefact that explains more than the best, if one does.
 
-    One that is no larger than sensors drift is a drift. Where no name acts where it
-    does, nothing could be taken for one.
+    One that is ahead by less than a rival that could be true refutes nothing. One that
+    is no larger than sensors drift is a drift. Where no name acts where it does,
+    nothing could be taken for one.
 
     Parameters
     ----------
@@ -199,7 +200,7 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
     (told,) = larger(problem, found.null, [leader])
     # Of those with a moment one was chosen among many.
     alike = sum(one.name == leader.name for one in listed)
-    if told.evidence - np.log(alike) <= best.best.evidence:
+    if told.evidence - np.log(alike) < best.best.evidence + SURE:
         return None
     (seen,) = told.fit.point.effects
     assert isinstance(seen, Artefact)
