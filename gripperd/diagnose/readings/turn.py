@@ -12,7 +12,7 @@ import numpy as np
 from gripperd.diagnose.noise.smoothing import Smooth
 from gripperd.diagnose.readings.bend import bend
 from gripperd.diagnose.readings.fault import Mask
-from gripperd.diagnose.readings.travel import reversal
+from gripperd.diagnose.readings.travel import OVERSHOOT, noticed, reversal
 from gripperd.model.track import Array
 
 DEPTH = 5.0
@@ -49,7 +49,8 @@ def turned(signs: Array, time: Array, column: Array, known: Smooth) -> Turned:
     turns = 1 + np.flatnonzero(signs[1:] * signs[:-1] < 0)
     if not (turns.size and known.variance > 0 and np.isfinite(column).all()):
         return found
-    least = DEPTH * reversal(known.spread)
+    reverses = reversal(known.spread)
+    least, noise = DEPTH * reverses, noticed(known.variance**0.5, reverses)
     places = [0, *turns.tolist(), signs.size]
     for (start, place), end in zip(pairwise(places), places[2:], strict=False):
         came = signs[place - 1]
@@ -67,4 +68,7 @@ def turned(signs: Array, time: Array, column: Array, known: Smooth) -> Turned:
         found.signs[place:early] = came
         found.signs[late:place] = -came
         found.unsure[early:late] = True
+        # Two rests with a small step between them look like one.
+        back = way[place - 1] - way[place:early] > noise
+        found.unsure[place:early] |= back & (np.count_nonzero(back) > OVERSHOOT)
     return found

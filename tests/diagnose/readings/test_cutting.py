@@ -47,6 +47,18 @@ def test_of_short_ways_it_is_not_known_where_they_rest(seed: int) -> None:
     assert left_out[turn:71].all()
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_after_a_small_step_back_no_friction_acts_the_old_way(seed: int) -> None:
+    """Down, a rest, up by two sigma of the noise, a rest, and on."""
+    ends = np.cumsum([0, 20, 60, 40, 10, 60, 20, 60])
+    steps = [0.1, 0.1, 0.05, 0.05, 0.0507, 0.0507, 0.08, 0.08]
+    way = np.interp(np.arange(ends[-1]), ends, steps)
+    (course,) = cut(run(contraction=way + noise(way.size, 3e-4, seed)))
+    unsure = np.asarray(course.smooth["contraction"].unsure)
+    rest = slice(136, 188)
+    assert (unsure | (course.direction > 0))[rest].all()
+
+
 def test_noise_alone_does_not_turn_the_travel() -> None:
     for seed in range(5):
         direction = cycled(WAY, 5e-4, seed).direction
