@@ -71,7 +71,9 @@ class Creep(InMuscle):
     more, below 0 when it relaxes. A bladder that passes the pressure on late has
     ``u = p`` and pulls at the length of now, ``c = A(h)``, so that a travel under a
     settled pressure calls nothing up. One that relaxes under its own stretch alone has
-    ``u = 5 F_s(h)``. Once settled it adds nothing. Where the rest of the model holds at
+    ``u = 5 [(1 - e) F_s(h) + e k h]``, where k is the slope of eq. (5) at rest length:
+    with e = 1 it is a spring over the length, as of a sleeve or of fittings. Once
+    settled it adds nothing. Where the rest of the model holds at
     once instead, ``s = 0``, it adds nothing to begin with. A record that begins under a
     load goes on from a wait under it, which may have been long.
     """
@@ -92,7 +94,11 @@ class Creep(InMuscle):
     )
 
     idle: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType(
-        dict.fromkeys((Creeping.PRESSURE, Creeping.RUBBER), ("leverage", "stretch"))
+        {
+            Creeping.PULL: ("even",),
+            Creeping.PRESSURE: ("leverage", "stretch", "even"),
+            Creeping.RUBBER: ("leverage", "stretch"),
+        }
     )
     rests_on: ClassVar[Mapping[str, str]] = MappingProxyType(
         {Creeping.RUBBER: "rubber_elasticity"}
@@ -117,6 +123,8 @@ class Creep(InMuscle):
 
     stretch: float = shape(unit=None, starts=(0.0,), low=-4.0, high=4.0)
     """How much of the stretch of the rubber creeps beside the pull, b. [-]"""
+    even: float = shape(unit=None, starts=(0.0,), low=0.0, high=1.0)
+    """How much of what relaxes goes with the length alone, e. [-]"""
 
     of: Creeping = choice(Creeping)  # noqa: RUF009  (declares)
     """What comes late."""
@@ -156,7 +164,8 @@ class Creep(InMuscle):
         if self.of is Creeping.PRESSURE:
             return at.pressure
         if self.of is Creeping.RUBBER:
-            return _stretched(at, muscle)
+            spring = RUBBER * muscle.elastic_stiffness * at.contraction
+            return (1 - self.even) * _stretched(at, muscle) + self.even * spring
         rest = muscle.pull_area(0.0)
         return at.pressure * (rest + self.leverage * (area - rest))
 

@@ -160,6 +160,15 @@ class Muscle:
         axial = contraction * diameter_ratio
         return self.rubber_stiffness * (hoop + axial)
 
+    @cached_property
+    def elastic_stiffness(self) -> float:
+        r"""Slope of :meth:`elastic_force` at rest length, per contraction. [N].
+
+        .. math:: E t \pi D_0 (1 / \tan^4\theta_0 + 1), \quad
+                  s'(0) = 1 / \tan^2\theta_0
+        """
+        return self.rubber_stiffness * (self.cot_squared**2 + 1)
+
     def volume(self, contraction: Real) -> Real:
         """Volume inside the braid, ``π D² L / 4`` with eqs. (1)-(3). [m³]."""
         ratio = self.diameter_ratio(contraction)

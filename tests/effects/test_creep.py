@@ -79,6 +79,19 @@ def test_a_bladder_relaxes_under_its_own_stretch(muscle: Muscle) -> None:
     np.testing.assert_array_equal(forces[0], forces[1])
 
 
+@pytest.mark.parametrize("even", [0.3, 1.0])
+def test_what_relaxes_may_go_with_the_length_as_a_spring(
+    muscle: Muscle, even: float
+) -> None:
+    """As stiff as eq. (5) is at rest length: s'(0) is 1 / tan² of the angle there."""
+    effect = replace(CREEP, of=Creeping.RUBBER, even=even)
+    modulus = muscle.elastic_modulus * muscle.wall_thickness * np.pi * muscle.diameter
+    spring = 0.1 * modulus * (1 / np.tan(muscle.braid_angle) ** 4 + 1)
+    told = (1 - even) * of_the_rubber(muscle) + even * spring
+    expected = left_of(5 * told)[1:]
+    assert -shortened(muscle, effect, 4e5)[1:] == pytest.approx(expected, rel=1e-6)
+
+
 def test_what_rubber_takes_of_the_pull_may_come_late_with_it(muscle: Muscle) -> None:
     """With a fifth of the stretch, by the shares of what eq. (5) takes."""
     effect = replace(CREEP, stretch=0.2)
@@ -129,7 +142,7 @@ def test_where_the_model_holds_at_once_all_that_comes_later_is_beyond_it(
 def test_its_static_force_is_what_a_long_wait_leaves(
     muscle: Muscle, of: Creeping, holds: Holding
 ) -> None:
-    effect = replace(CREEP, of=of, holds=holds, leverage=0.4, stretch=0.3)
+    effect = replace(CREEP, of=of, holds=holds, leverage=0.4, stretch=0.3, even=0.6)
     at = MuscleState(300e3, 0.1, muscle.diameter_ratio(0.1), 1.0)
     step = np.array([0.0, 1e5])
     track = track_of(muscle, time=step, step=step, pressure=300e3, contraction=0.1)

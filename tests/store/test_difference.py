@@ -46,6 +46,7 @@ def test_constants_tolerances_and_effects_are_told_in_the_units_of_the_file(
         Change("effects.creep.leverage", None, 1.0),
         Change("effects.creep.fresh", None, 0.0),
         Change("effects.creep.stretch", None, 0.0),
+        Change("effects.creep.even", None, 0.0),
         Change("effects.creep.of", None, "pull"),
         Change("effects.creep.holds", None, "settled"),
     )
