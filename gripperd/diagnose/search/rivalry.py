@@ -6,7 +6,7 @@ from itertools import islice
 
 import numpy as np
 
-from gripperd.diagnose.fit.candidates import Candidate, is_plain
+from gripperd.diagnose.fit.candidates import Candidate, is_exact, is_plain
 from gripperd.diagnose.fit.cross_validation import bears_out
 from gripperd.diagnose.fit.design import Member, design
 from gripperd.diagnose.fit.rival import Rival, Start, added, fitted
@@ -142,7 +142,7 @@ def standing_in(found: Found, told: Contest) -> Contest:
         alike = (
             rival
             for rival in rivals
-            if best.evidence - rival.evidence < margin
+            if _behind(best, rival, index) < margin
             and not has_become(rival, best)
             and not is_but_curve(rival, best)
             and not rival.is_misnamed
@@ -151,6 +151,21 @@ def standing_in(found: Found, told: Contest) -> Contest:
         )
         places.append(replace(place, rivals=tuple(alike)))
     return Contest(best, tuple(places), margin)
+
+
+def _behind(best: Rival, rival: Rival, index: int) -> float:
+    """By how much less likely a rival is; where neither has a form, by the data. [nat].
+
+    What was thought likely before tells a diameter from a gain no better than a coin.
+    """
+    behind = best.evidence - rival.evidence
+    if all(_is_formless(one.candidates[index]) for one in (best, rival)):
+        return min(behind, 0.5 * (rival.fit.cost - best.fit.cost))
+    return behind
+
+
+def _is_formless(candidate: Candidate) -> bool:
+    return candidate.effect is None or is_exact(candidate)
 
 
 def _within_limits(

@@ -203,6 +203,21 @@ def test_a_rival_stands_in_that_leaves_a_twentieth_where_its_prior_asks_less(
     assert told.equivalents == ((("twin",) if kept else ()),)
 
 
+@pytest.mark.parametrize(("one", "kept"), [(BORE, True), (BIAS, True), (RUB, False)])
+def test_a_constant_is_not_told_from_a_factor_by_what_was_likely_before(
+    problem: Problem, one: Candidate, *, kept: bool
+) -> None:
+    """4 nat less likely, though it fits as well: only what has a form pays for that."""
+    found = _found(problem, RUB)
+    best = Rival((GAIN,), found.best.fit)
+    numbers = len(best.fit.covariance)
+    narrower = best.fit.covariance * np.exp(-2 * 4.0 / numbers)
+    rival = Rival((one,), replace(best.fit, covariance=narrower))
+    assert best.evidence - rival.evidence == pytest.approx(4.0)
+    told = standing_in(found, Contest(best, (Place(found.null, (rival,)),)))
+    assert told.equivalents == (((one.name,) if kept else ()),)
+
+
 @pytest.mark.parametrize(("deviations", "kept"), [(0.9, False), (3.0, True)])
 def test_no_misfit_within_chance_excuses_a_rival(
     problem: Problem, deviations: float, *, kept: bool
