@@ -83,3 +83,14 @@ def test_the_papers_muscle_pulls_2575_square_millimetres_times_pressure(
     muscle: Muscle,
 ) -> None:
     assert muscle.pull_area(0.0) == pytest.approx(2.57542e-3, rel=2e-6)
+
+
+def test_the_stiffness_at_rest_is_the_slope_of_the_elastic_force(
+    muscle: Muscle,
+) -> None:
+    near, far = 1e-6, 2e-6
+    here, there = (
+        muscle.elastic_force(h, muscle.diameter_ratio(h)) for h in (near, far)
+    )
+    slope = (there - here) / (far - near)
+    assert muscle.elastic_stiffness == pytest.approx(slope, rel=1e-4)
