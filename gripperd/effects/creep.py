@@ -72,10 +72,10 @@ class Creep(InMuscle):
     ``u = p`` and pulls at the length of now, ``c = A(h)``, so that a travel under a
     settled pressure calls nothing up. One that relaxes under its own stretch alone has
     ``u = 5 [(1 - e) F_s(h) + e k h]``, where k is the slope of eq. (5) at rest length:
-    with e = 1 it is a spring over the length, as of a sleeve or of fittings. Once
-    settled it adds nothing. Where the rest of the model holds at
-    once instead, ``s = 0``, it adds nothing to begin with. A record that begins under a
-    load goes on from a wait under it, which may have been long.
+    with e = 1 it is a spring over the length. Once settled it adds nothing. Where the
+    rest of the model holds at once instead, ``s = 0``, it adds nothing to begin with. A
+    record that begins under a load goes on from a wait under it, which may have been
+    long.
     """
 
     name: ClassVar[str] = "creep"
