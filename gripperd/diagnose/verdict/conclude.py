@@ -11,6 +11,7 @@ from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.burst import bursts
 from gripperd.diagnose.verdict.gap import REACHED, Gap
+from gripperd.diagnose.verdict.handed_on import not_handed_on
 from gripperd.diagnose.verdict.structure import WANDERS, Structure, loudness, structures
 from gripperd.model.effect import Signal
 
@@ -91,6 +92,10 @@ def conclude(
     """
     before = _structured(problem, found.null.fit)
     after = _structured(problem, contest.best.fit)
+    if not contest.best.candidates:
+        # Where forces are explained they tell what of a grip is not.
+        beside = not_handed_on(problem, problem.residuals(contest.best.fit.point))
+        before, after = before + beside, after + beside
     remaining = _remaining(after)
     # Of each by itself as well: what is large in one hides what is left of another.
     plain = {one.signal for one in remaining if one.size > WANDERS}
