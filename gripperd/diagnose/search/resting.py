@@ -13,7 +13,7 @@ import numpy as np
 from gripperd.diagnose.fit.candidates import WRONG, Candidate
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.polish import polished
-from gripperd.diagnose.fit.rival import Rival, removed
+from gripperd.diagnose.fit.rival import Rival, larger, removed
 from gripperd.diagnose.residuals.explanation import AtRest
 from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
@@ -35,9 +35,10 @@ WORTH = 20.0
 BRAID = WRONG + "muscle.friction_coefficient"
 STAND_INS = (BRAID, "pressure_hysteresis")
 """What may be found instead of a sign."""
+MOUNT = "series_compliance"
 TELLING = (
     "coulomb_friction", "pressure_friction", "braid_friction", "pressure_hysteresis",
-    "threshold_pressure", "force_sensor_bias", "force_sensor_gain",
+    "threshold_pressure", "force_sensor_bias", "force_sensor_gain", MOUNT,
 )  # fmt: skip
 """What depends on the sign, or could stand in for it."""
 
@@ -74,11 +75,18 @@ def with_resting_sign(problem: Problem, listed: Sequence[Candidate]) -> Problem:
 
 
 def _evidence(problem: Problem, few: Sequence[Candidate]) -> float:
-    """Of the best constants, with nothing added or one of a few."""
-    start = polished(problem, Point(np.zeros(len(problem.constants)))).point
-    around = design(problem, start, few)
-    members = [around.fit(one) for one in around.members]
-    return max(fit.evidence for fit in (around.fit(), *members))
+    """Of the best constants, with nothing added or one of a few. [nat].
+
+    What gives in a mount turns friction round as well, which no slope of its size
+    tells: it is fitted in full.
+    """
+    bare = Rival((), polished(problem, Point(np.zeros(len(problem.constants)))))
+    around = design(problem, bare.fit.point, few)
+    told = {one.candidate: around.fit(one).evidence for one in around.members}
+    mounts = [one for one in told if one.name == MOUNT]
+    likely = sorted(mounts, key=told.__getitem__, reverse=True)[:1]
+    full = [one.evidence for one in larger(problem, bare, likely)]
+    return max((around.fit().evidence, *told.values(), *full))
 
 
 def _lead(best: Problem, tried: Problem) -> float:

@@ -1,14 +1,17 @@
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from gripperd.config import load_model
 from gripperd.diagnose.diagnosis import diagnose
 from gripperd.diagnose.fit.candidates import Candidate, candidates
 from gripperd.diagnose.fit.rival import Rival
 from gripperd.diagnose.readings.recording import Recording, Run
 from gripperd.diagnose.residuals.explanation import AtRest
+from gripperd.diagnose.residuals.holdout import split
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search import resting
 from gripperd.diagnose.search.found import Found
@@ -22,6 +25,7 @@ from gripperd.effects.force_sensor_bias import ForceSensorBias
 from gripperd.effects.rubber_elasticity import RubberElasticity
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
+from gripperd.recordings import read_recording
 from tests.diagnose.fitted import ended, fitted
 from tests.diagnose.small import (
     MODEL,
@@ -35,6 +39,7 @@ from tests.diagnose.small import (
     textbook,
     without,
 )
+from tests.hidden_rig import make_case
 
 COLUMNS = frozenset({"time", "current", "pressure", "contraction", "force"})
 LIBRARY = {name: EFFECTS[name] for name in ("coulomb_friction", "force_sensor_bias")}
@@ -174,6 +179,19 @@ def test_how_far_a_frame_must_yield_for_friction_to_turn_is_told(radius: float) 
     problem, decided = _decided(_framed(radius))
     assert problem.model.at_rest is AtRest.INFLATING
     assert decided.model.winding == pytest.approx(radius, rel=0.35)
+
+
+def test_what_gives_in_a_mount_turns_friction_round_by_itself(tmp_path: Path) -> None:
+    """A rope that stiffens, in a rig whose constants are free: no slope tells it."""
+    case = make_case(
+        tmp_path, seed=41100008, family="B", kind="single", names=("series_compliance",)
+    )
+    told, model = read_recording(case.recording), load_model(case.model)
+    problem = split(problem_of(told, model.explanation(), model.tolerances)).train
+    listed, _ = candidates(EFFECTS, problem, COLUMNS)
+    rubbing = [one for one in listed if one.name != "series_compliance"]
+    assert with_resting_sign(problem, rubbing).model.at_rest is not AtRest.CARRIED
+    assert with_resting_sign(problem, listed).model.at_rest is AtRest.CARRIED
 
 
 def test_without_a_frame_that_yields_nothing_winds_up() -> None:
