@@ -45,7 +45,7 @@ from gripperd.diagnose.verdict.extrapolation import (
 from gripperd.diagnose.verdict.gap import Gap, beside_drift, gaps
 from gripperd.diagnose.verdict.initial_state import with_fitted_state
 from gripperd.diagnose.verdict.judged import (
-    bearing_signal,
+    bearing_signals,
     main_signal,
     open_signal,
 )
@@ -211,12 +211,12 @@ def _weighed(
     # That tolerances are too tight is one finding, however many constants it moves.
     effects = 1 if nearest.looser else len(entries)
     exact = not nearest.looser and not nearest.effects
-    bearing = bearing_signal(train, best, main, judged)
-    gap = judged[bearing] if bearing else None
+    signals = bearing_signals(train, best, len(nearest.effects), main, judged)
+    bearing = [judged[signal] for signal in signals]
     spoilt = any(one.is_spoilt for one in judged.values())
     against = imitated or spoilt or refuted(parts, inside, found, best)
-    if against or (gap and not gap.confirms(effects, exact=exact)):
-        is_open = bool(imitated) or (gap is not None and gap.is_open)
+    if against or not all(one.confirms(effects, exact=exact) for one in bearing):
+        is_open = bool(imitated) or any(one.is_open for one in bearing)
         conclusion = not_confirmed(conclusion, is_open=is_open)
     conclusion = not_closed(train, conclusion, judged, beside_drift(inside, base))
     if not conclusion.verdict.establishes:

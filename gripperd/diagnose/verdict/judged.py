@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.price import acts_on
 from gripperd.diagnose.search.rivalry import Contest
-from gripperd.diagnose.verdict.gap import Gap
+from gripperd.diagnose.verdict.gap import CROWD, Gap
 from gripperd.model.effect import Signal, Stage
 
 
@@ -52,15 +52,34 @@ def open_signal(
     return max(heard, key=lambda one: judged[one].left_open, default=main)
 
 
-def bearing_signal(
-    problem: Problem, best: Contest, main: Signal | None, judged: Mapping[Signal, Gap]
-) -> Signal | None:
-    """Give the signal that bears names out: what none of them touches says nothing."""
+def bearing_signals(
+    problem: Problem,
+    best: Contest,
+    effects: int,
+    main: Signal | None,
+    judged: Mapping[Signal, Gap],
+) -> tuple[Signal, ...]:
+    """Give the signals that bear names out: what none of them touches says nothing.
+
+    That is one of few effects. A crowd closes one signal by what it does in others, so
+    that it is held to each.
+
+    Parameters
+    ----------
+    problem, best
+        The recording and the model, and the outcome of the search.
+    effects
+        How many are named, constants not counted.
+    main, judged
+        The signal the story is about, and gaps on what was left out.
+    """
     candidates = best.best.candidates
     if not candidates:
-        return main
+        return (main,) if main else ()
     touched = {signal for one in candidates for signal in acts_on(problem, one)}
-    heard = [signal for signal in judged if signal in touched]
+    heard = tuple(signal for signal in judged if signal in touched)
+    if effects > CROWD or not heard:
+        return heard
     if main in heard:
-        return main
-    return max(heard, key=lambda one: judged[one].left_open, default=None)
+        return (main,)
+    return (max(heard, key=lambda one: judged[one].left_open),)
