@@ -12,13 +12,17 @@ from gripperd.diagnose.search.rivalry import Contest
 from gripperd.diagnose.verdict.burst import bursts
 from gripperd.diagnose.verdict.gap import REACHED, Gap
 from gripperd.diagnose.verdict.handed_on import not_handed_on
-from gripperd.diagnose.verdict.structure import WANDERS, Structure, loudness, structures
+from gripperd.diagnose.verdict.structure import (
+    VISIBLE,
+    WANDERS,
+    Structure,
+    loudness,
+    structures,
+)
 from gripperd.model.effect import Signal
 
 STRUCTURED = 1e-4
 """Chance below which what is left is no noise, over all ways of looking at it."""
-VISIBLE = 0.0015
-"""Structure below this share of full scale is what common sensors drift. [-]"""
 LOUD = 2.0
 """Mean square of what is left, in whatever order, from which it is no noise: that of a
 sensor is known to a tenth. [-]"""
@@ -60,6 +64,8 @@ class Conclusion:
     """Times the noise that is left of a signal, if that is too much for noise. [-]"""
     bursts: Mapping[Signal, int] = field(default_factory=dict)
     """How often a signal is far off for a while, if it is so again and again."""
+    alone: Mapping[Signal, float] = field(default_factory=dict)
+    """How far a grip is off where the force that it follows is not. [N]"""
     left_out: Mapping[Signal, float] = field(default_factory=dict)
     """Times what can be reached that a signal is off in what took no part, if nothing
     is missing in what did. [-]"""
@@ -73,7 +79,7 @@ class Conclusion:
     @property
     def odd(self) -> tuple[Signal, ...]:
         """Those in which what is left is no noise, in whatever order it is."""
-        return (*self.louder, *self.bursts)
+        return (*self.louder, *self.bursts, *self.alone)
 
 
 def conclude(
@@ -92,19 +98,19 @@ def conclude(
     """
     before = _structured(problem, found.null.fit)
     after = _structured(problem, contest.best.fit)
-    if not contest.best.candidates:
-        # Where forces are explained they tell what of a grip is not.
-        beside = not_handed_on(problem, problem.residuals(contest.best.fit.point))
-        before, after = before + beside, after + beside
     remaining = _remaining(after)
     # Of each by itself as well: what is large in one hides what is left of another.
     plain = {one.signal for one in remaining if one.size > WANDERS}
     share = min(_share(before, after, each) for each in (None, *plain))
     is_open = bool(remaining) and share < EXPLAINED
     louder = _louder(problem, contest.best.fit)
-    often = bursts(problem, problem.residuals(contest.best.fit.point))
+    residuals = problem.residuals(contest.best.fit.point)
+    often = bursts(problem, residuals)
+    alone: dict[Signal, float] = {}
     if not contest.best.candidates:
-        is_odd = remaining or louder or often
+        # Where forces are explained they tell what of a grip is not.
+        alone = not_handed_on(problem, residuals)
+        is_odd = remaining or louder or often or alone
         verdict = Verdict.UNEXPLAINED if is_odd else Verdict.NONE
     elif is_near or contest.best.is_misnamed or is_open:
         verdict = Verdict.UNEXPLAINED
@@ -112,7 +118,7 @@ def conclude(
         verdict = Verdict.AMBIGUOUS
     else:
         verdict = Verdict.NAMED
-    return Conclusion(verdict, after, share, before, louder, often)
+    return Conclusion(verdict, after, share, before, louder, often, alone)
 
 
 def not_confirmed(conclusion: Conclusion, *, is_open: bool) -> Conclusion:

@@ -12,23 +12,20 @@ import numpy as np
 
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.residuals.ranges import ranges
-from gripperd.diagnose.verdict.structure import WANDERS, Structure, chi_square_tail
+from gripperd.diagnose.verdict.structure import VISIBLE, WANDERS, chi_square_tail
 from gripperd.model.effect import Signal
 from gripperd.model.track import Array
 
-ALONG = "the sweep, in which the force is as it should be"
-"""Way of looking at what is left."""
-UNSEEN = 0.00075
-"""Of the largest force, what a muscle does and its model does not, and nobody sees:
-half of what would be seen. [-]"""
+UNLIKELY = 1e-4
+"""Chance below which a grip that is off is not one whose cell drifts."""
+UNSEEN = VISIBLE / 2
+"""Of the largest force, what a muscle does, its model does not, and nobody sees. [-]"""
 FEWEST = 8
 """Samples of a sweep that have both, at least."""
 
 
-def not_handed_on(
-    problem: Problem, residuals: Sequence[Array]
-) -> tuple[Structure, ...]:
-    """Look at grips and forces together, sweep by sweep; none where none has both.
+def not_handed_on(problem: Problem, residuals: Sequence[Array]) -> dict[Signal, float]:
+    """Look at grips and forces together, sweep by sweep.
 
     Parameters
     ----------
@@ -36,31 +33,29 @@ def not_handed_on(
         The recording and a model that explains its forces.
     residuals
         Measured minus predicted, block by block. [SI]
+
+    Returns
+    -------
+    How far the grip is off by itself, as a root mean square; empty where no more than
+    sound sensors are. [N]
     """
     linkage, noises = problem.model.linkage, problem.noises
     if linkage is None or not {Signal.FORCE, Signal.GRIP} <= set(problem.signals):
-        return ()
+        return {}
     sums = list(_sums(problem, residuals, linkage.ratio))
     if not sums:
-        return ()
+        return {}
     means = np.array([each.mean() for each in sums])
-    sizes = np.array([each.size for each in sums])
+    counts = np.array([each.size for each in sums])
     grip, force = noises[Signal.GRIP], noises[Signal.FORCE]
     own = grip.drift**2 - (force.drift / linkage.ratio) ** 2
     unseen = UNSEEN * problem.full_scale[Signal.FORCE] / linkage.ratio
-    variances = max(own, 0.0) + unseen**2 + grip.slow_variance / sizes
-    total = float(np.sum(means**2 / variances))
-    excess = float(np.average(means**2 - variances, weights=sizes))
-    beside = Structure(
-        Signal.GRIP,
-        ALONG,
-        total - means.size,
-        chi_square_tail(total, means.size),
-        max(excess, 0.0) ** 0.5 / ranges(problem)[Signal.GRIP],
-        0.0,
-        WANDERS / means.size**0.5,
-    )
-    return (beside,)
+    variances = max(own, 0.0) + unseen**2 + grip.slow_variance / counts
+    chance = chi_square_tail(float(np.sum(means**2 / variances)), means.size)
+    excess = float(np.average(means**2 - variances, weights=counts))
+    size = max(excess, 0.0) ** 0.5
+    least = max(VISIBLE, WANDERS / means.size**0.5) * ranges(problem)[Signal.GRIP]
+    return {Signal.GRIP: size} if chance < UNLIKELY and size > least else {}
 
 
 def _sums(

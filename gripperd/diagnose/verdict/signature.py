@@ -1,5 +1,7 @@
 """What nobody could name, in words: what it depends on and what it does not."""
 
+from collections.abc import Iterator
+
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.price import SEEN, size_of
 from gripperd.diagnose.search.rivalry import Contest
@@ -50,18 +52,27 @@ def signature(
     for signal in problem.signals:
         views = [one for one in conclusion.left if one.signal is signal]
         words += _told(signal.value, views)
-        if signal in conclusion.louder:
-            times = conclusion.louder[signal]
-            words.append(f"{signal.value}: {times:.1f} times as loud as its noise")
-        if signal in conclusion.bursts:
-            count = conclusion.bursts[signal]
-            words.append(f"{signal.value}: {count} bursts, far off for a while each")
-        if signal in conclusion.left_out:
-            times = conclusion.left_out[signal]
-            words.append(
-                f"{signal.value}: {times:.1f} times its noise in what took no part"
-            )
+        words += _odd(signal, conclusion)
     return tuple(words)
+
+
+def _odd(signal: Signal, conclusion: Conclusion) -> Iterator[str]:
+    """What of a signal is no noise, in whatever order it is, or took no part."""
+    if signal in conclusion.louder:
+        times = conclusion.louder[signal]
+        yield f"{signal.value}: {times:.1f} times as loud as its noise"
+    if signal in conclusion.bursts:
+        count = conclusion.bursts[signal]
+        yield f"{signal.value}: {count} bursts, far off for a while each"
+    if signal in conclusion.alone:
+        newtons = conclusion.alone[signal]
+        yield (
+            f"{signal.value}: {newtons:.1f} N off, over sweeps in which the force that"
+            " it follows is not"
+        )
+    if signal in conclusion.left_out:
+        times = conclusion.left_out[signal]
+        yield f"{signal.value}: {times:.1f} times its noise in what took no part"
 
 
 def _told(signal: str, views: list[Structure]) -> list[str]:

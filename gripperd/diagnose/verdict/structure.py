@@ -29,6 +29,8 @@ TIME = "time"
 """Way of looking at what nothing else is behind."""
 SLOW = 12
 """Slow components looked at along time, in each sweep."""
+VISIBLE = 0.0015
+"""Structure below this share of full scale is what common sensors drift. [-]"""
 WANDERS = 0.003
 """How far readings wander in a sweep, of the ranges of sensors: sound ones drift by
 0.2 % (sd), and noise of 0.6 % that lasts for seconds is seen in their means too. [-]"""
