@@ -24,6 +24,7 @@ from gripperd.model.prandtl import at_rest, begin_after, begin_at, carried, sett
 from gripperd.model.preisach import (
     BARE,
     CLOSEST,
+    HELD,
     NARROWEST,
     PARAMETERS,
     Hysteron,
@@ -40,6 +41,8 @@ length is read by, and dry friction turns round over as much. [-]"""
 NARROW = 0.01
 """Least half width of relays. A muscle that sticks or snaps at one length has much
 narrower ones, close together. [-]"""
+MOST = 300.0
+"""Most that relays give, either way: a fifth of what a large muscle pulls. [N]"""
 AT_ONCE = 0.95
 """Share of all that the near spring carries then, from which the force jumps. [-]"""
 
@@ -97,7 +100,7 @@ class PreslidingHysteresis(InMuscle):
 
     hysteron: Hysteron = choice(Hysteron)  # noqa: RUF009  (declares)
     """What remembers."""
-    relays: float = amplitude(unit="N", scale=10.0, low=-300.0, high=300.0)
+    relays: float = amplitude(unit="N", scale=10.0, low=-MOST, high=MOST)
     """Given by the relays with all up; their loop loses work if it is positive. [N]"""
     radius: float = shape(unit=None, starts=(0.025,), low=NARROW, high=0.035)
     """Half the width of the narrow ones; no travel switches much wider ones. [-]"""
@@ -120,8 +123,14 @@ class PreslidingHysteresis(InMuscle):
 
     @property
     def is_misnamed(self) -> bool:
-        """Something snaps at one length: a fold of the bladder, a cable, a stop."""
-        return self.hysteron is Hysteron.RELAY and self._relays.snaps(NARROW)
+        """Something snaps at one length: a fold of the bladder, a cable, a stop.
+
+        Or relays would be narrower yet, and as many more, if they might: that is dry
+        friction, which remembers nothing, of another size at every length.
+        """
+        relays = self._relays
+        rubs = relays.is_narrow(NARROW) and abs(self.relays) >= (1 - HELD) * MOST
+        return self.hysteron is Hysteron.RELAY and (relays.snaps(NARROW) or rubs)
 
     @property
     def forgetful(self) -> Self:

@@ -63,8 +63,11 @@ class Relays:
         What they stand for lets go at one place and catches at another, as a fold of a
         bladder that snaps or a cable that is caught; no bank of relays is so.
         """
-        narrow = self.radius <= (1 + HELD) * narrowest
-        return narrow and self.width >= (1 - HELD) * CLOSEST
+        return self.is_narrow(narrowest) and self.width >= (1 - HELD) * CLOSEST
+
+    def is_narrow(self, narrowest: float) -> bool:
+        """Whether they would be narrower yet, if they might."""
+        return self.radius <= (1 + HELD) * narrowest
 
     def up(self, signal: Array, memory: Array) -> Array:
         """Share that is up along a path, however fast it is run, less the curve. [-].

@@ -148,6 +148,25 @@ RELAYS = PreslidingHysteresis(
 )  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("relays", "radius", "width", "misnamed"),
+    [
+        pytest.param(14.0, 0.02, 0.5, False, id="a bank"),
+        pytest.param(14.0, 0.01, 1.0, True, id="one switch"),
+        pytest.param(-300.0, 0.01, 0.4, True, id="friction that grows with the way"),
+        pytest.param(300.0, 0.02, 0.4, False, id="many, but wide"),
+        pytest.param(250.0, 0.01, 0.4, False, id="narrow, but no more than that"),
+    ],
+)
+def test_relays_that_would_be_narrower_yet_are_something_else(
+    relays: float, radius: float, width: float, *, misnamed: bool
+) -> None:
+    bank = replace(RELAYS, relays=relays, radius=radius, width=width)
+    assert bank.is_misnamed is misnamed
+    springs = replace(bank, hysteron=Hysteron.STOP)
+    assert not springs.is_misnamed
+
+
 def test_relays_give_force_where_there_is_no_way_back(muscle: Muscle) -> None:
     up = force(muscle, path(-0.2, 0.4), RELAYS)
     assert np.ptp(up) == pytest.approx(14.0, abs=0.1)
