@@ -16,6 +16,7 @@ from gripperd.diagnose.fit.candidates import Candidate, forms
 from gripperd.diagnose.fit.design import design
 from gripperd.diagnose.fit.rival import larger
 from gripperd.diagnose.readings.course import is_table
+from gripperd.diagnose.residuals.point import Point
 from gripperd.diagnose.residuals.problem import Problem
 from gripperd.diagnose.search.found import Found
 from gripperd.diagnose.search.price import SEEN, acts_on, size_of
@@ -67,8 +68,8 @@ class Jump(_OfCell):
     """A mount slipped, a cable was moved: readings after a moment are off alike."""
 
     name: ClassVar[str] = "jump"
-    shows: ClassVar[str] = "the measured force is off from one sweep on"
-    remedy: ClassVar[str] = "look what moved between the two sweeps"
+    shows: ClassVar[str] = "the measured force is off from one moment on"
+    remedy: ClassVar[str] = "look what moved then"
 
     size: float = amplitude(unit="N", scale=10.0, low=-1e4, high=1e4)
     """Reading minus truth after the jump. [N]"""
@@ -183,9 +184,8 @@ def artefact(found: Found, best: Contest) -> Artefact | None:
     """
     problem, named = found.problem, best.best.candidates
     acted = {signal for one in named for signal in acts_on(problem, one)}
-    listed = [
-        Candidate(one.name, one) for one in _artefacts(problem) if one.signal in acted
-    ]
+    suspects = *_artefacts(problem), *_jumps_amid(problem, found.null.fit.point)
+    listed = [Candidate(one.name, one) for one in suspects if one.signal in acted]
     if not listed:
         return None
     around = design(problem, found.null.fit.point, listed)
@@ -226,3 +226,17 @@ def _artefacts(problem: Problem) -> Iterator[Effect]:
         # What is weaker once it was inflated for the first time is run in.
         if count != once:
             yield Snap(loss=0.02, at=at)
+
+
+def _jumps_amid(problem: Problem, point: Point) -> Iterator[Effect]:
+    """Give the jump in each sweep that its forces have, if any: at most one has it.
+
+    It lies where the sum of what is left of them, about its mean, is furthest from 0.
+    """
+    pairs = zip(problem.blocks, problem.residuals(point), strict=True)
+    for (block, left), time in zip(pairs, problem.times, strict=True):
+        if block.signal is Signal.FORCE:
+            start = problem.courses[block.course].start
+            last = int(np.argmax(np.abs(np.cumsum(left - np.mean(left))[:-1])))
+            at = float(time[last] + time[last + 1]) / 2 - start
+            yield Jump(size=10.0, at=at)

@@ -78,6 +78,18 @@ def test_a_mount_that_slipped_once_is_no_drift() -> None:
     assert before == after
 
 
+def test_it_may_slip_amid_a_sweep() -> None:
+    amid = moments()["c"].time[40]
+
+    def slipped(moment: Moment) -> Array:
+        return np.where(moment.time > amid, -40.0, 0.0)
+
+    _, seen = _seen(recording(slipped))
+    assert isinstance(seen, Jump)
+    assert seen.size == pytest.approx(-40.0, abs=4.0)
+    assert seen.at == pytest.approx(amid, abs=1.0)
+
+
 def test_it_slipped_as_well_where_the_clock_began_long_ago() -> None:
     late = altered(recording(_slipped), moments(), "time", lambda time: time + 1.7e9)
     seen, known = (_seen(told)[1] for told in (late, recording(_slipped)))
